@@ -30,7 +30,7 @@ fn main() {
         let tensors = |size: f64| -> Vec<[f64; 6]> {
             strains(size).iter().map(|e| [1.0 + e[0], 1.0 + e[1], 1.0 + e[2], 0.5 * e[0], 0.0, 0.0]).collect()
         };
-        let (state, law) = (State::default(), model.principal().expect("a model of principal strains"));
+        let (state, law) = (State::default(), model.as_ref());
         let mut internal = vec![0.0; internal_count(&*model)];
         model.begin(0.0, &mut internal);
         print!("{:<16}", kind.name);

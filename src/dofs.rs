@@ -5,7 +5,7 @@
 //! | displacement (m) | D a node | by node | first, node by node |
 //! | motion of rigid bodies (m, rad) | a translation and a rotation a body | after the nodes ([`RigidDofs`]) | after those of the nodes |
 //! | pressure (kPa) | one a corner, and in cells of second order one a cell | [`Places`] | one each, after them |
-//! | scalar fields by number, the pore pressure (kPa) first where there is one | one a corner | [`Places`] | among the former |
+//! | pore pressure (kPa) | one a corner | [`Places`] | among the former |
 //!
 //! Under linear constraints the equations of the displacements are those of the controls, which have the numbers of nodes, and the values of
 //! the nodes follow from them ([`LinearConstraints`]).
@@ -13,16 +13,13 @@
 use crate::mesh::Mesh;
 use crate::system::{Connectivity, LinearConstraints};
 
-/// The number of the pore pressure among the scalar fields, where there is one.
-pub const PORE_PRESSURE: usize = 0;
-
 /// Where the pressures of a family of cells stand among all pressures of a state: the pressure field by node, the constants of the cells of
-/// the grid, those of the finite elements, the scalar fields by node one after the other.
+/// the grid, those of the finite elements, the pore pressure by node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Places {
-    /// Where the constants of the cells of the family begin, and the scalar fields.
+    /// Where the constants of the cells of the family begin, and the pore pressure.
     constants: usize,
-    fields: usize,
+    pores: usize,
     /// How many nodes there are.
     nodes: usize,
 }
@@ -30,8 +27,8 @@ pub struct Places {
 impl Places {
     /// Those of the cells of the grid and of the finite elements, given how many nodes and cells there are.
     pub fn of(nodes: usize, cells: usize, elements: usize) -> [Self; 2] {
-        let fields = nodes + cells + elements;
-        [nodes, nodes + cells].map(|constants| Self { constants, fields, nodes })
+        let pores = nodes + cells + elements;
+        [nodes, nodes + cells].map(|constants| Self { constants, pores, nodes })
     }
 
     /// The constant of a cell.
@@ -39,20 +36,14 @@ impl Places {
         self.constants + cell
     }
 
-    /// The value of scalar field `k` at a node.
-    pub fn field(self, k: usize, node: u32) -> usize {
-        self.fields + k * self.nodes + node as usize
+    /// The pore pressure at a node.
+    pub fn pore(self, node: u32) -> usize {
+        self.pores + node as usize
     }
 
-    /// How many values there are with so many scalar fields.
-    pub fn end(self, fields: usize) -> usize {
-        self.field(fields, 0)
-    }
-
-    /// The scalar field that a place is of, and the node.
-    pub fn of_scalar(self, place: u32) -> Option<(usize, u32)> {
-        let after = (place as usize).checked_sub(self.fields)?;
-        Some((after / self.nodes, (after % self.nodes) as u32))
+    /// How many values there are, with pore pressures or without.
+    pub fn end(self, with_water: bool) -> usize {
+        self.pores + if with_water { self.nodes } else { 0 }
     }
 
     /// The places of the pressure field of a cell: its corners, and its constant.
@@ -61,15 +52,9 @@ impl Places {
         mesh.cells.corners(cell).iter().copied().chain(constant)
     }
 
-    /// The places of the first `fields` scalar fields of a cell: its corners, field by field.
-    pub fn of_fields<const D: usize>(
-        self,
-        mesh: &Mesh<D>,
-        cell: usize,
-        fields: usize,
-    ) -> impl Iterator<Item = u32> + '_ {
-        let corners = mesh.cells.corners(cell);
-        (0..fields).flat_map(move |k| corners.iter().map(move |&n| self.field(k, n) as u32))
+    /// The places of the pore pressure of a cell: its corners.
+    pub fn of_pores<const D: usize>(self, mesh: &Mesh<D>, cell: usize) -> impl Iterator<Item = u32> + '_ {
+        mesh.cells.corners(cell).iter().map(move |&n| self.pore(n) as u32)
     }
 }
 
@@ -288,11 +273,10 @@ impl<const D: usize> DofMap<D> {
         }
     }
 
-    /// The equations of scalar field `number`, with their nodes.
-    pub fn field(&self, number: usize) -> impl Iterator<Item = (usize, u32)> {
-        let first = self.displacements();
-        let of_field = move |&place: &u32| self.places.of_scalar(place).filter(|(k, _)| *k == number);
-        self.pressure.iter().enumerate().filter_map(move |(k, place)| Some((first + k, of_field(place)?.1)))
+    /// The equations of the pore pressure, with their nodes.
+    pub fn pores(&self) -> impl Iterator<Item = (usize, u32)> {
+        let node = |place: u32| place.checked_sub(self.places.pores as u32);
+        (self.displacements()..).zip(&self.pressure).filter_map(move |(k, place)| Some((k, node(*place)?)))
     }
 }
 
@@ -310,17 +294,15 @@ mod tests {
         let [grid, elements] = Places::of(nodes, cells, 3);
         let of_field = (0..cells).flat_map(|c| grid.of_field(&mesh, c));
         let of_elements = (0..3).map(|c| elements.constant(c) as u32);
-        let of_scalars = (0..cells).flat_map(|c| grid.of_fields(&mesh, c, 2));
+        let of_scalars = (0..cells).flat_map(|c| grid.of_pores(&mesh, c));
         let mut all: Vec<u32> = of_field.chain(of_elements).chain(of_scalars).collect();
         all.sort_unstable();
         all.dedup();
-        // Four corners with the pressure and two other fields, and a constant a cell.
-        assert_eq!(all.len(), 3 * 4 + cells + 3);
-        assert_eq!(grid.of_scalar(grid.field(1, 2) as u32), Some((1, 2)));
-        assert_eq!(grid.end(2), grid.field(1, nodes as u32 - 1) + 1);
-        assert_eq!(grid.of_scalar(grid.constant(1) as u32), None);
+        // Four corners with both pressures, and a constant a cell.
+        assert_eq!(all.len(), 2 * 4 + cells + 3);
+        assert_eq!(grid.end(true), grid.pore(nodes as u32 - 1) + 1);
 
-        let places = [grid.constant(0) as u32, grid.field(PORE_PRESSURE, 1) as u32];
+        let places = [grid.constant(0) as u32, grid.pore(1) as u32];
         let dofs = DofMap::<2> {
             node: vec![1, 3],
             pressure: places.to_vec(),
@@ -332,6 +314,6 @@ mod tests {
         assert_eq!(dofs.displacement(3, 1).map(|e| dofs.dof(e)), Some(Dof::Displacement { node: 3, component: 1 }));
         assert_eq!(dofs.displacement(2, 0), None);
         assert_eq!(dofs.dof(4), Dof::Pressure(grid.constant(0)));
-        assert_eq!(dofs.field(PORE_PRESSURE).collect::<Vec<_>>(), [(5, 1)]);
+        assert_eq!(dofs.pores().collect::<Vec<_>>(), [(5, 1)]);
     }
 }

@@ -14,7 +14,7 @@ use std::sync::Arc;
 /// Declares [`Points`] and the table of its columns: an entry is a field with its documentation, its type and its [`Column`].
 macro_rules! columns {
     ($($(#[$about:meta])* $name:ident: [$item:ty] = $column:expr;)*) => {
-        /// All material points of a scene. Every column has one entry a point, `internal` and `fields` as many as the scene needs; a column that a
+        /// All material points of a scene. Every column has one entry a point, `internal` and `domain` as many as the scene needs; a column that a
         /// scene or its state does not need is empty.
         #[derive(Clone, Debug, Default, PartialEq)]
         pub struct Points<const D: usize> {
@@ -75,8 +75,6 @@ columns! {
     pressure: [f64] = Column::of("kPa").merged(Merged::BySeededVolume).of_scene().of_material();
     /// Excess pressure (kPa) of the water in the pores, compression positive, at the last converged step; empty without pore water.
     pore_pressure: [f64] = Column::of("kPa").merged(Merged::ByVolume).of_scene().seeded().of_material();
-    /// The values of the scalar fields of a scene ([`crate::step::Field`]), those of each point side by side; empty without any.
-    fields: [f64] = Column::of("-").merged(Merged::ByVolume).comes_and_goes().several().of_material_points();
     /// The domain of the point as its scheme describes it (m), as many numbers for each point as that needs, as of the last grid reset; empty for
     /// schemes whose points have no extent.
     domain: [f64] = Column::of("m").comes_and_goes().several().of_material_points();
@@ -130,7 +128,7 @@ impl<const D: usize> Points<D> {
     #[inline]
     pub fn state(&self, p: usize, inverse_dt: f64) -> State<'_> {
         let (plastic_strain, internal) = (self.plastic_strain[p], self.internal_of(p));
-        State { plastic_strain, internal, inverse_dt, increment: None, strength: self.strength_of(p), stiffening: 0.0 }
+        State { plastic_strain, internal, inverse_dt, strength: self.strength_of(p), stiffening: 0.0 }
     }
 
     /// The strength of point `p` over that of the parameters of its material (-).

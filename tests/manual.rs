@@ -2,7 +2,7 @@
 //! those of the program, its words are plain, and the commands of its first steps print what it says.
 
 use crate::support::{PROGRAM, in_folder, project, python, succeeds};
-use mpm::case::Keys;
+use mpm::case;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -95,12 +95,12 @@ fn the_tables_have_every_key_of_the_schema() {
         fs::write(&schema, text).unwrap();
         python().arg(project("pipeline/keys.py")).arg("--check").arg(&schema).output().unwrap()
     };
-    let text = Keys::default().schema().to_string();
+    let text = case::schema().to_string();
     let output = check(&text);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
 
     // A key that no page has, and one that no case has, are told with their names.
-    let mut more = Keys::default().schema();
+    let mut more = case::schema();
     more["$defs"]["Mesh"]["properties"]["smoothing"] = serde_json::json!({"description": "Sweeps.", "type": "integer"});
     let output = check(&more.to_string());
     let said = String::from_utf8_lossy(&output.stderr).into_owned();

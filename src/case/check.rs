@@ -11,17 +11,11 @@ use crate::material::MODELS;
 use crate::step;
 use std::collections::HashSet;
 use std::path::Path as FilePath;
-use std::sync::Arc;
 
-/// The case of `file`, whose paths are relative to `folder`, with the `entries` that have terms of their own, and every mistake that
-/// shows without the mesh; the case is a sound one only if there is none.
-pub(super) fn check<E>(file: &raw::CaseFile, entries: Vec<E>, folder: &FilePath) -> (Case, Vec<Issue>)
-where
-    E: FnOnce(&raw::CaseFile, &mut Checker) -> Option<Arc<dyn Feature>>,
-{
+/// The case of `file`, whose paths are relative to `folder`, and every mistake that shows without the mesh; the case is a sound one only if there is none.
+pub(super) fn check(file: &raw::CaseFile, folder: &FilePath) -> (Case, Vec<Issue>) {
     let mut checker = Checker::default();
-    let features = entries.into_iter().filter_map(|entry| entry(file, &mut checker)).collect();
-    let case = checker.case(file, features, folder);
+    let case = checker.case(file, folder);
     (case, checker.issues)
 }
 
@@ -38,7 +32,7 @@ pub(super) const LATER: &str = "is not available yet";
 
 /// Keeps the mistakes of a case.
 #[derive(Default)]
-pub struct Checker {
+pub(super) struct Checker {
     issues: Vec<Issue>,
 }
 
@@ -55,7 +49,7 @@ impl Checker {
         self.issues.len()
     }
 
-    fn case(&mut self, file: &raw::CaseFile, features: Vec<Arc<dyn Feature>>, folder: &FilePath) -> Case {
+    fn case(&mut self, file: &raw::CaseFile, folder: &FilePath) -> Case {
         let root = Path::default();
         let gravity = [file.gravity.x, file.gravity.y];
         let materials: Vec<_> = file
@@ -91,7 +85,7 @@ impl Checker {
             numerics,
             phases,
             output: self.output(&file.output, &root.key("output")),
-            features,
+            drained_surface: self.drained_surface(file, &root.key("drained_surface")),
             unlikely: unlikely::values(file),
         };
         self.together(&case, file);

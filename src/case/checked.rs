@@ -10,21 +10,13 @@ pub use crate::run::{Quantity, Until};
 pub use crate::step::{Material, Restore, StepSize};
 pub use phases::*;
 
-use super::locate::Path;
-use super::raw::Product;
 use crate::contact::Law;
-use crate::error::Result;
 use crate::interpolation::Basis;
 use crate::material::Profile;
-use crate::mesh;
-use crate::rigid::Body;
 use crate::step;
-use crate::term::Term;
 use crate::time_value::TimeValue;
 use std::collections::BTreeMap;
-use std::fmt;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 /// A checked case.
 #[derive(Clone, Debug)]
@@ -50,8 +42,8 @@ pub struct Case {
     pub numerics: Numerics,
     pub phases: Vec<Phase>,
     pub output: Output,
-    /// The entries that bring terms of their own.
-    pub features: Vec<Arc<dyn Feature>>,
+    /// The surface that drains.
+    pub drained_surface: Option<Surface>,
     /// Warnings of values that no soil has (`unlikely.rs`).
     pub unlikely: Vec<String>,
 }
@@ -61,52 +53,6 @@ impl Case {
     pub fn content(&self, region: &str) -> Option<Content> {
         self.regions.iter().find(|other| other.name == region).map(|region| region.content)
     }
-}
-
-/// An entry of the case with terms of its own, checked; each is a [`super::keyed::Keyed`].
-pub trait Feature: fmt::Debug + Send + Sync {
-    /// Its key.
-    fn key(&self) -> &'static str;
-
-    /// What it shapes of what the stages make.
-    fn shapes(&self) -> &'static [Product];
-
-    /// The physical curves that it names, each with the entry that does, given its own.
-    fn curves(&self, path: &Path) -> Vec<(&str, Path)>;
-
-    /// Its values that vary in the time of a phase: steps end where they bend.
-    fn values(&self, phase: usize) -> Vec<&TimeValue>;
-
-    /// Whether the surface of the material points must be known.
-    fn needs_surface(&self) -> bool;
-
-    /// The surface that it drains, if it does.
-    fn drains(&self) -> Option<Surface>;
-
-    /// Its terms on the grid.
-    ///
-    /// # Errors
-    /// Input: what the mesh does not have, or cannot bear.
-    fn terms(&self, site: &Site) -> Result<Vec<Box<dyn Term<2>>>>;
-
-    /// Its terms on the finite elements `mesh`.
-    ///
-    /// # Errors
-    /// As [`Feature::terms`].
-    fn on_elements(&self, site: &Site, mesh: &mesh::Mesh<2>) -> Result<Vec<Box<dyn Term<2>>>>;
-}
-
-/// What the terms of an entry are made from.
-pub struct Site<'a> {
-    pub case: &'a Case,
-    /// The background grid, with the nodes and the groups of the whole mesh.
-    pub mesh: &'a mesh::Mesh<2>,
-    /// The finite elements, if there are some, with the same nodes and groups.
-    pub elements: Option<&'a mesh::Mesh<2>>,
-    /// The rigid structures.
-    pub rigid: &'a [Body<2>],
-    /// What a unit of the unknowns of pressures stands for (kPa/m); `None` without such unknowns.
-    pub pressure_unit: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

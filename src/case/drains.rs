@@ -59,7 +59,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Result<Vec<String>> {
     }
     let curves = case.supports.iter().filter(|support| support.drained).filter_map(|s| mesh.group(&s.curve));
     curves.flat_map(|curve| &curve.nodes).filter_map(|&n| bodies.of_node(n as usize)).for_each(|b| drained[b] = true);
-    for surface in case.features.iter().filter_map(|feature| feature.drains()) {
+    if let Some(surface) = case.drained_surface {
         let drains = |r: usize| match surface {
             Surface::All => true,
             Surface::Of(index) => case.regions[index].name == *name(r),
@@ -109,7 +109,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Result<Vec<String>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use crate::mesh::Group;
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
@@ -124,7 +124,7 @@ mod tests {
              sand: {{model: linear_elastic, young: 4000, density: 0, {sand}}}}}\n{entries}"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         let mut mesh = rectangle(CellKind::T6, 1.0, 4.0, 2, 8, 0.0, 0);
         mesh.regions = ["lower", "clay", "upper", "air"].map(String::from).to_vec();

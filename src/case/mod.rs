@@ -2,8 +2,7 @@
 //!
 //! [`source`] reads the text by way of `yaml` and applies the overrides of the command line, [`structure`] checks its shape
 //! against the schema of [`raw`], `check` resolves that into [`checked`] types, [`names`] holds the result
-//! against the groups of the mesh. An entry with terms of its own is a file that implements [`keyed::Keyed`], and a line in the list
-//! of [`Keys`].
+//! against the groups of the mesh.
 
 pub mod at_rest;
 mod changes;
@@ -18,7 +17,6 @@ mod earth_pressure;
 mod find;
 mod incompressible;
 pub mod issue;
-pub mod keyed;
 pub mod layout;
 mod loads;
 pub mod locate;
@@ -50,42 +48,26 @@ mod wall;
 mod water;
 mod yaml;
 
-pub use check::Checker;
 pub use checked::Case;
 
 use crate::error::{self, Error};
-use drained_surface::DrainedSurface;
 use issue::Issue;
-use keyed::Key;
-use locate::Step;
+use locate::{At, Step};
 use names::Groups;
 use raw::Product;
 use schemars::generate::SchemaSettings;
 use serde_json::{Map, Value};
+use serde_path_to_error::Segment;
 use source::Source;
 use std::collections::HashSet;
 use std::path::Path;
 use unconnected::Place;
-
-/// The keys whose entries have terms of their own.
-const KEYS: [Key; 1] = [Key::of::<DrainedSurface>()];
 
 /// A case together with the text it is from.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     pub source: Source,
     pub case: Case,
-}
-
-/// What a case may have: the entries of [`raw::CaseFile`], and those of a list of [`Key`]s.
-#[derive(Clone, Debug)]
-pub struct Keys(Vec<Key>);
-
-impl Default for Keys {
-    /// Those built in.
-    fn default() -> Self {
-        Self(KEYS.to_vec())
-    }
 }
 
 /// What there is to say of a case without its mesh.
@@ -98,138 +80,114 @@ pub struct Review {
     pub case: Option<Case>,
 }
 
-impl Keys {
-    /// Those built in and `more`.
-    ///
-    /// # Errors
-    /// Input: two entries of the same key.
-    pub fn with(more: &[Key]) -> error::Result<Self> {
-        let mut keys = Self::default();
-        for &key in more {
-            let mut known = raw::SHAPES.iter().map(|(name, _)| *name).chain(keys.0.iter().map(|key| key.name));
-            if known.any(|name| name == key.name) {
-                let place = format!("the key `{}`", key.name);
-                return Err(Error::input(place, "the case has such an entry", "choose another name"));
+/// The JSON schema of `case.yaml`.
+pub fn schema() -> Value {
+    Value::from(SchemaSettings::default().into_generator().into_root_schema_for::<raw::CaseFile>())
+}
+
+/// Reads and checks a `case.yaml`, or the one in a folder, with overrides `PATH=VALUE`.
+///
+/// # Errors
+/// Every mistake that shows without the mesh, in the order of the file.
+pub fn load(file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
+    let mut source = Source::read(file, overrides)?;
+    source.go_on()?;
+    resolved(source)
+}
+
+/// As [`load`], of a case whose text has been read.
+///
+/// # Errors
+/// As [`load`].
+pub fn resolved(source: Source) -> Result<Loaded, Vec<Error>> {
+    match resolve(&source) {
+        (Some(case), issues) if issues.is_empty() => Ok(Loaded { source, case }),
+        (_, issues) => Err(errors(&source, &issues)),
+    }
+}
+
+/// Every mistake in a case and, where it can be read at all, in its `.geo`; `groups` has the names of the mesh and where its regions
+/// lie.
+///
+/// # Errors
+/// What cannot be read at all.
+pub fn review(
+    file: &Path,
+    overrides: &[String],
+    groups: impl FnOnce(&Case) -> Result<(Groups, Vec<Place>), Vec<Error>>,
+) -> error::Result<Review> {
+    let mut source = Source::read(file, overrides)?;
+    let begun = source.go_on();
+    let (case, mut issues) = resolve(&source);
+    let mut notes = source.notes().to_vec();
+    let mesh = locate::Path::default().key("mesh");
+    let sound = !issues.iter().any(|issue| mesh.contains(&issue.path));
+    if let Some(case) = case.as_ref().filter(|_| sound) {
+        match groups(case) {
+            Ok((groups, places)) => {
+                issues.extend(names::check(case, &groups));
+                notes.extend(unconnected::structures(case, &places));
+                notes.extend(unmeant::of_case(case, &places));
             }
-            keys.0.push(key);
-        }
-        Ok(keys)
-    }
-
-    /// The JSON schema of `case.yaml`.
-    pub fn schema(&self) -> Value {
-        let mut generator = SchemaSettings::default().into_generator();
-        let entries: Vec<_> = self.0.iter().map(|key| (key.name, (key.schema)(&mut generator))).collect();
-        let mut schema = Value::from(generator.into_root_schema_for::<raw::CaseFile>());
-        if let Some(properties) = schema.get_mut("properties").and_then(Value::as_object_mut) {
-            properties.extend(entries.into_iter().map(|(name, entry)| (name.to_owned(), entry.into())));
-        }
-        schema
-    }
-
-    /// Reads and checks a `case.yaml`, or the one in a folder, with overrides `PATH=VALUE`.
-    ///
-    /// # Errors
-    /// Every mistake that shows without the mesh, in the order of the file.
-    pub fn load(&self, file: &Path, overrides: &[String]) -> Result<Loaded, Vec<Error>> {
-        let mut source = Source::read(file, overrides)?;
-        source.go_on()?;
-        self.resolved(source)
-    }
-
-    /// As [`Keys::load`], of a case whose text has been read.
-    ///
-    /// # Errors
-    /// As [`Keys::load`].
-    pub fn resolved(&self, source: Source) -> Result<Loaded, Vec<Error>> {
-        match self.resolve(&source) {
-            (Some(case), issues) if issues.is_empty() => Ok(Loaded { source, case }),
-            (_, issues) => Err(errors(&source, &issues)),
-        }
-    }
-
-    /// Every mistake in a case and, where it can be read at all, in its `.geo`; `groups` has the names of the mesh and where its regions
-    /// lie.
-    ///
-    /// # Errors
-    /// What cannot be read at all.
-    pub fn review(
-        &self,
-        file: &Path,
-        overrides: &[String],
-        groups: impl FnOnce(&Case) -> Result<(Groups, Vec<Place>), Vec<Error>>,
-    ) -> error::Result<Review> {
-        let mut source = Source::read(file, overrides)?;
-        let begun = source.go_on();
-        let (case, mut issues) = self.resolve(&source);
-        let mut notes = source.notes().to_vec();
-        let mesh = locate::Path::default().key("mesh");
-        let sound = !issues.iter().any(|issue| mesh.contains(&issue.path));
-        if let Some(case) = case.as_ref().filter(|_| sound) {
-            match groups(case) {
-                Ok((groups, places)) => {
-                    issues.extend(names::check(case, &groups));
-                    notes.extend(unconnected::structures(case, &places));
-                    notes.extend(unmeant::of_case(case, &places));
-                }
-                Err(e) => {
-                    let mut mistakes = errors(&source, &issues);
-                    mistakes.extend(e);
-                    return Ok(Review { mistakes, notes, case: None });
-                }
+            Err(e) => {
+                let mut mistakes = errors(&source, &issues);
+                mistakes.extend(e);
+                return Ok(Review { mistakes, notes, case: None });
             }
         }
-        if let Err(mut mistakes) = begun {
-            // What is said of its own phases alone may be wrong.
-            let phases = locate::Path::default().key("phases");
-            issues.retain(|issue| !phases.contains(&issue.path));
-            mistakes.extend(errors(&source, &issues));
-            return Ok(Review { mistakes, notes, case: None });
-        }
-        let mistakes = errors(&source, &issues);
-        Ok(Review { case: case.filter(|_| mistakes.is_empty()), mistakes, notes })
     }
+    if let Err(mut mistakes) = begun {
+        // What is said of its own phases alone may be wrong.
+        let phases = locate::Path::default().key("phases");
+        issues.retain(|issue| !phases.contains(&issue.path));
+        mistakes.extend(errors(&source, &issues));
+        return Ok(Review { mistakes, notes, case: None });
+    }
+    let mistakes = errors(&source, &issues);
+    Ok(Review { case: case.filter(|_| mistakes.is_empty()), mistakes, notes })
+}
 
-    /// The case if it can be read at all, and its mistakes; only without any is it a sound one.
-    fn resolve(&self, source: &Source) -> (Option<Case>, Vec<Issue>) {
-        let mut issues = source.faults().to_vec();
-        let faulty: HashSet<&[Step]> = source.faults().iter().map(|fault| fault.path.0.as_slice()).collect();
-        let left_out = |issue: &Issue| (0..=issue.path.0.len()).any(|end| faulty.contains(&issue.path.0[..end]));
-        let mut shape = structure::check(&self.schema(), source.tree());
-        shape.retain(|issue| !left_out(issue));
-        issues.extend(shape);
-        // With the unknown keys mended or left out the rest may be read all the same, and have more to say.
-        let mut tree = source.tree().clone();
-        issues.iter().filter(|issue| issue.unknown).for_each(|issue| mend(&mut tree, issue));
-        let mut entries = Vec::new();
-        for key in &self.0 {
-            let Some(value) = tree.as_object_mut().and_then(|tree| tree.remove(key.name)) else { continue };
-            match (key.read)(&value) {
-                Ok(entry) => entries.extend(entry),
-                Err(issue) => keep_unless_told(&mut issues, issue, &locate::Path::default().key(key.name)),
-            }
+/// The case if it can be read at all, and its mistakes; only without any is it a sound one.
+fn resolve(source: &Source) -> (Option<Case>, Vec<Issue>) {
+    let mut issues = source.faults().to_vec();
+    let faulty: HashSet<&[Step]> = source.faults().iter().map(|fault| fault.path.0.as_slice()).collect();
+    let left_out = |issue: &Issue| (0..=issue.path.0.len()).any(|end| faulty.contains(&issue.path.0[..end]));
+    let mut shape = structure::check(&schema(), source.tree());
+    shape.retain(|issue| !left_out(issue));
+    issues.extend(shape);
+    // With the unknown keys mended or left out the rest may be read all the same, and have more to say.
+    let mut tree = source.tree().clone();
+    issues.iter().filter(|issue| issue.unknown).for_each(|issue| mend(&mut tree, issue));
+    match read(&tree) {
+        Ok(file) => {
+            let (case, more) = check::check(&file, source.folder());
+            issues.extend(more);
+            (Some(case), issues)
         }
-        let root = locate::Path::default();
-        match keyed::read(&tree, &root) {
-            Ok(file) => {
-                let (case, more) = check::check(&file, entries, source.folder());
-                issues.extend(more);
-                (Some(case), issues)
+        // The walk along the schema has mostly said already, and better, what cannot be read.
+        Err(issue) => {
+            if issues.is_empty() {
+                issues.push(issue);
             }
-            Err(issue) => {
-                keep_unless_told(&mut issues, issue, &root);
-                (None, issues)
-            }
+            (None, issues)
         }
     }
 }
 
-/// Adds what cannot be read to the `issues`, unless they have one in that block: the walk along the schema has mostly said already, and
-/// better, what cannot be read.
-fn keep_unless_told(issues: &mut Vec<Issue>, unread: Issue, block: &locate::Path) {
-    if !issues.iter().any(|issue| block.contains(&issue.path)) {
-        issues.push(unread);
-    }
+/// What is written in `tree`.
+///
+/// # Errors
+/// The first entry that does not fit.
+fn read(tree: &Value) -> Result<raw::CaseFile, Issue> {
+    serde_path_to_error::deserialize(tree).map_err(|e| {
+        let steps = e.path().iter().filter_map(|segment| match segment {
+            Segment::Seq { index } => Some(Step::Index(*index)),
+            Segment::Map { key } => Some(Step::Key(key.clone())),
+            _ => None,
+        });
+        let path = locate::Path(steps.collect());
+        Issue::new(&path, At::Value, e.inner().to_string(), "compare with `mpm schema`")
+    })
 }
 
 impl Loaded {
@@ -244,10 +202,8 @@ impl Loaded {
 
     /// The entries that shape a product of the stages themselves, as far as the case has them: when they change, it is stale.
     pub fn shaping(&self, product: Product) -> Map<String, Value> {
-        let of_features = self.case.features.iter().map(|feature| (feature.key(), feature.shapes()));
-        let shape = |shapes: &[Product]| shapes.contains(&product);
         let mut keys: Vec<&str> =
-            raw::SHAPES.into_iter().chain(of_features).filter(|(_, s)| shape(s)).map(|(key, _)| key).collect();
+            raw::SHAPES.into_iter().filter(|(_, shapes)| shapes.contains(&product)).map(|(key, _)| key).collect();
         if product == Product::Points && self.case.water.is_some() {
             // The soil begins under the water of the first phase.
             keys.push("phases");

@@ -59,11 +59,6 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
             names.curve(curve, &root.key("contacts").index(i).key("wall"), At::Value);
         }
     }
-    for feature in &case.features {
-        for (curve, path) in feature.curves(&root.key(feature.key())) {
-            names.curve(curve, &path, At::Value);
-        }
-    }
     for (i, phase) in case.phases.iter().enumerate() {
         let path = root.key("phases").index(i);
         let mut curves: Vec<&str> = phase.prescribed.iter().map(|p| p.curve.as_str()).collect();

@@ -8,11 +8,10 @@ use crate::error::Result;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
 use crate::mesh::Mesh;
-use crate::run::fields::{self, Field as PointField};
+use crate::run::fields::Field as PointField;
 use crate::run::{InternalVariable, Outputs, Quantity, Watch, WatchedOn};
 use crate::step::Scene;
 use std::collections::BTreeSet;
-use std::sync::Arc;
 
 /// The outputs of a case, and the `warnings` that its run begins with.
 ///
@@ -24,33 +23,29 @@ pub fn outputs(
     folder: &RunFolder,
     origin: Origin,
     warnings: Vec<String>,
-) -> Result<Outputs<2>> {
+) -> Result<Outputs> {
     let mesh = &scene.mesh;
-    let mut asked: Vec<Arc<dyn PointField<2>>> = Vec::new();
+    let mut fields = Vec::new();
     let mut with_stress = false;
     for field in &case.output.fields {
-        let field: Arc<dyn PointField<2>> = match field {
-            Field::Displacement => Arc::new(fields::Displacement),
-            Field::Velocity => Arc::new(fields::Velocity),
+        match field {
+            Field::Displacement => fields.push(PointField::Displacement),
+            Field::Velocity => fields.push(PointField::Velocity),
             // Invariants come with the stress.
             Field::Stress | Field::MeanStress | Field::DeviatoricStress => {
-                if std::mem::replace(&mut with_stress, true) {
-                    continue;
+                if !std::mem::replace(&mut with_stress, true) {
+                    fields.push(PointField::Column("stress"));
                 }
-                Arc::new(fields::PointColumn("stress"))
             }
-            Field::PlasticStrain => Arc::new(fields::PointColumn("plastic_strain")),
-            Field::DeformationGradient => Arc::new(fields::DeformationGradient),
-            Field::PorePressure => Arc::new(fields::PorePressure(carried(case, mesh)?)),
-            Field::Mass => Arc::new(fields::PointColumn("mass")),
-            Field::ShearStrength => Arc::new(fields::ShearStrength(models(case, mesh)?)),
+            Field::PlasticStrain => fields.push(PointField::Column("plastic_strain")),
+            Field::DeformationGradient => fields.push(PointField::DeformationGradient),
+            Field::PorePressure => fields.push(PointField::PorePressure(carried(case, mesh)?)),
+            Field::Mass => fields.push(PointField::Column("mass")),
+            Field::ShearStrength => fields.push(PointField::ShearStrength(models(case, mesh)?)),
             Field::InternalVariables => {
-                let variables = InternalVariable::all(&models(case, mesh)?).into_iter();
-                asked.extend(variables.map(|variable| Arc::new(variable) as Arc<dyn PointField<2>>));
-                continue;
+                fields.extend(InternalVariable::all(&models(case, mesh)?).into_iter().map(PointField::Internal));
             }
-        };
-        asked.push(field);
+        }
     }
     let watch = |entry: &History| {
         let body = scene.bodies.iter().position(|body| rigid::body_of(mesh, body, &entry.on));
@@ -66,7 +61,7 @@ pub fn outputs(
     let watches = pores::pressures_at_corners(scene, watches);
     let until = case.phases.iter().map(|phase| phase.until.clone()).collect();
     let surface = if water::needs_surface(case) { Some(water::acting(case, mesh)?) } else { None };
-    Ok(Outputs { folder: folder.clone(), ends: Vec::new(), warnings, fields: asked, watches, until, surface, origin })
+    Ok(Outputs { folder: folder.clone(), ends: Vec::new(), warnings, fields, watches, until, surface, origin })
 }
 
 /// The nodes of the grid `mesh`, and of none of the finite elements, whose displacement the history has.

@@ -2,9 +2,8 @@
 //!
 //! Both number the nodes as the whole mesh does; cells are numbered in each part in their order in the whole.
 
-use super::checked::{Case, Content, Geometry, Phase, Restore, Site};
+use super::checked::{Case, Content, Geometry, Phase, Restore};
 use super::find::{group, regions};
-use super::rigid;
 use crate::error::{Error, Result};
 use crate::io::export::Regions;
 use crate::mesh::locate::Locator;
@@ -55,18 +54,19 @@ pub fn carries(fem: &Mesh<2>, curve: &Group) -> bool {
     curve.nodes.iter().all(|n| of.contains(n))
 }
 
-/// A curve of the mesh that moves with the material of bodies that deform, for what acts at `place`.
+/// A curve of the `mesh` that moves with the material of bodies that deform, for what acts at `place`.
 ///
 /// # Errors
-/// Input: a curve that the mesh lacks; one of a rigid structure; one of a grid that does not move with the material.
-pub fn material_curve<'a>(site: &Site<'a>, name: &str, place: impl Fn() -> String) -> Result<&'a Group> {
-    let curve = group(site.mesh, name)?;
-    if site.rigid.iter().any(|body| rigid::body_of(site.mesh, body, name)) {
-        let remedy = "name a curve of a body that deforms, or take `rigid: true` out";
-        return Err(Error::input(place(), "the curve is one of a rigid structure", remedy));
-    }
-    let moves = site.case.numerics.solver.restore == Restore::Never;
-    if !moves && !site.elements.is_some_and(|elements| carries(elements, curve)) {
+/// Input: a curve that the mesh lacks, or one of a grid that does not move with the material.
+pub fn material_curve<'a>(
+    case: &Case,
+    (mesh, elements): (&'a Mesh<2>, Option<&Mesh<2>>),
+    name: &str,
+    place: impl Fn() -> String,
+) -> Result<&'a Group> {
+    let curve = group(mesh, name)?;
+    let moves = case.numerics.solver.restore == Restore::Never;
+    if !moves && !elements.is_some_and(|elements| carries(elements, curve)) {
         return Err(Error::input(
             place(),
             "the curve is not one of finite elements, and the grid does not move with the material",

@@ -54,6 +54,8 @@ pub struct CaseFile {
     pub initial_velocity: BTreeMap<String, Velocity>,
     /// Water at rest outside of the soil, in its pores, or both. Default: none.
     pub water: Option<Water>,
+    /// The surface of soil, wherever it moves, that has no excess pore pressure while water flows: all, or the name of a region. Default: none.
+    pub drained_surface: Option<String>,
     /// The end of a phase of another run, from which the phases go on. Default: the points as seeded.
     pub start_from: Option<StartFrom>,
     /// The numerical method.
@@ -87,9 +89,8 @@ pub enum Product {
     Series,
 }
 
-/// What each entry of [`CaseFile`] shapes itself, beside what is made from that. What it shapes is stale when it changes. Further
-/// entries are [`super::keyed::Keyed`].
-pub const SHAPES: [(&str, &[Product]); 16] = [
+/// What each entry of [`CaseFile`] shapes itself, beside what is made from that. What it shapes is stale when it changes.
+pub const SHAPES: [(&str, &[Product]); 17] = [
     ("title", &[]),
     ("geometry", &[Product::Points, Product::Results]),
     ("mesh", &[Product::Mesh]),
@@ -102,6 +103,7 @@ pub const SHAPES: [(&str, &[Product]); 16] = [
     ("initial_pore_pressure", &[Product::Points]),
     ("initial_velocity", &[Product::Points]),
     ("water", &[Product::Points, Product::Results]),
+    ("drained_surface", &[Product::Results]),
     // By the hash of the state that it names.
     ("start_from", &[]),
     ("numerics", &[Product::Results]),

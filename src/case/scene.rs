@@ -1,15 +1,15 @@
 //! From a checked case to a scene: the only place that decides which terms exist, but for those that an entry of the case brings
 //! with it ([`super::keyed`]).
 
-use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore, Site, Touched};
+use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore, Touched};
 use super::find::{filled, mean_size, region_index, regions};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    changes, contact_interfaces, controls, layout, outputs, parts, pores, scheme, search, seeded, staged, unconnected,
-    unmeant, wall, water,
+    changes, contact_interfaces, controls, drained_surface, layout, outputs, parts, pores, scheme, search, seeded,
+    staged, unconnected, unmeant, wall, water,
 };
 use crate::error::Result;
 use crate::io::phase_state::End;
@@ -194,13 +194,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     if let (Some(water), Some(unit)) = (&water, pressure_unit) {
         terms.push(Box::new(PoreStabilisation::<K>::new(water.porous.clone(), unit, shear, mesh.cells.len())));
     }
-    let site = Site { case, mesh: &mesh, elements: fem.as_ref(), rigid: &bodies[..structures], pressure_unit };
-    let mut terms_on_elements = Vec::new();
-    for feature in &case.features {
-        terms.extend(feature.terms(&site)?);
-        if let Some(part) = site.elements {
-            terms_on_elements.extend(feature.on_elements(&site, part)?);
-        }
+    if let Some(drained) = drained_surface::term::<K>(case, &mesh, pressure_unit)? {
+        terms.push(Box::new(drained));
     }
     if case.gravity != [0.0; 2] && density_scale > 0.0 {
         terms.push(Box::new(gravity::<K>(case)));
@@ -223,18 +218,17 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     }
     terms.extend(water::terms::<K>(case, &mesh, size)?);
     for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
-        if site.rigid.iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
+        if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
             continue;
         }
         let place = || format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name);
-        let group = parts::material_curve(&site, &traction.curve, place)?;
+        let group = parts::material_curve(case, (&mesh, fem.as_ref()), &traction.curve, place)?;
         terms.push(Box::new(Traction::<K, 2>::new(&mesh, group, phase, traction.components.clone())));
     }
 
     let fem = match fem {
         Some(part) => {
             let mut terms = internal::<K>(case, &part, dynamic, pressure_unit, shear)?;
-            terms.extend(terms_on_elements);
             let deforms = |region: &Region| region.content.is_fem() && !region.content.is_rigid();
             let heavy = changes::used(case).any(|(region, m)| deforms(region) && m.has_mass());
             if case.gravity != [0.0; 2] && heavy {
@@ -286,7 +280,6 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         pressure_unit,
         carried,
         water,
-        fields: Vec::new(),
         supports,
         phases,
         traced,
@@ -370,7 +363,6 @@ fn phase(
         .iter()
         .flat_map(|t| &t.components)
         .chain(water::values(case, number, phase))
-        .chain(case.features.iter().flat_map(|feature| feature.values(number)))
         .chain(std::iter::once(&phase.gravity))
         .chain(&phase.reduction)
         .collect();

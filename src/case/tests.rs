@@ -1,10 +1,9 @@
 //! Sound cases come out as they were meant, and no text makes the reader panic.
 
 use super::checked::{Content, Geometry, InitialVelocity, Order, Restore};
-use super::issue::Issue;
 use super::raw::SHAPES;
 use super::source::Source;
-use super::{Case, Keys, seeding};
+use super::{Case, resolve, schema, seeding};
 use crate::mesh::builder;
 use crate::mesh::shape::CellKind;
 use crate::time_value::TimeValue;
@@ -40,10 +39,6 @@ phases:
     tractions: [{on: top, tx: 4}]
 output: {every: 0.5}
 ";
-
-fn resolve(source: &Source) -> (Option<Case>, Vec<Issue>) {
-    Keys::default().resolve(source)
-}
 
 fn case(text: &str, overrides: &[&str]) -> Case {
     let overrides: Vec<String> = overrides.iter().map(|&text| text.to_owned()).collect();
@@ -366,7 +361,7 @@ fn poissons_ratios_that_no_soil_has_are_noted() {
 /// What a new entry shapes is declared where it is, so that results do not stay when it changes.
 #[test]
 fn every_entry_says_what_it_shapes() {
-    let schema = Keys(Vec::new()).schema();
+    let schema = schema();
     let entries: Vec<&str> = schema["properties"].as_object().unwrap().keys().map(String::as_str).collect();
     let mut declared: Vec<&str> = SHAPES.iter().map(|(key, _)| *key).collect();
     declared.sort_unstable();

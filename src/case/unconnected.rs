@@ -124,7 +124,7 @@ fn should_hold(case: &Case, [a, b]: [&str; 2]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
     use std::path::PathBuf;
@@ -137,7 +137,7 @@ mod tests {
              phases: [{{name: a, analysis: quasi_static, duration: 1, step: {{initial: 1}}, deactivate: {deactivated}}}]\n"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         let mut mesh = rectangle(CellKind::T6, 1.0, 1.0, 2, 1, 0.0, 0);
         // Two corners and a mid-side.

@@ -120,7 +120,7 @@ pub(super) fn extents(case: &Case, places: &[Place]) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use crate::case::unmeant::of_case;
-    use crate::case::{Keys, source::Source, unconnected::Place};
+    use crate::case::{resolve, source::Source, unconnected::Place};
     use std::path::PathBuf;
 
     const CASE: &str = "geometry: plane_strain\nmesh: {geo: Cargo.toml}\n\
@@ -138,7 +138,7 @@ mod tests {
             text = text.replace(entry, other);
         }
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         let place = Place { name: "soil".into(), bounds: [[0.0, 0.0], [width, 2.0]], parts: Vec::new() };
         of_case(&case.unwrap(), &[place])

@@ -238,7 +238,7 @@ fn width(body: &Bounds, grid: &Bounds, axis: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
     use std::path::PathBuf;
@@ -254,7 +254,7 @@ mod tests {
              prescribe: {{footing: {{ux: 0, uy: {{rate: -1}}}}}}}}]\n"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         let mut mesh = rectangle(CellKind::Q9, 4.0, 2.0, 16, 8, 0.0, 0);
         let body = rectangle(CellKind::Q9, 0.25 * wide as f64, 0.25, wide, 1, 0.0, 0);

@@ -127,8 +127,8 @@ fn is_all_around(case: &Case, load: &SurfaceLoad) -> bool {
 /// Whether the surface of the material points must be known: for loads on it, for other terms, or to be shown.
 pub fn needs_surface(case: &Case) -> bool {
     let water = case.water.as_ref().is_some_and(|water| water.level.is_some());
-    let of_features = case.features.iter().any(|feature| feature.needs_surface());
-    case.output.surface || water || of_features || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
+    let needed = case.output.surface || water || case.drained_surface.is_some();
+    needed || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
 }
 
 /// The loads on the surface of the material points.

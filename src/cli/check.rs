@@ -6,7 +6,7 @@ use super::mesh;
 use super::print::{Outcome, note, print};
 use crate::case::checked::Source;
 use crate::case::names::Of;
-use crate::case::{Keys, Review, scene, seeding, unconnected, unmeant};
+use crate::case::{self, Review, scene, seeding, unconnected, unmeant};
 use crate::run::WARNING;
 
 #[derive(clap::Args)]
@@ -18,11 +18,11 @@ pub struct Args {
     limits: mesh::Limits,
 }
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
+pub fn run(args: &Args) -> Outcome {
     let CaseArgs { case, overrides } = &args.case;
     // A mesh that is given is read once, for its names.
     let mut given = None;
-    let Review { mistakes, notes, case: sound } = keys.review(case, overrides, |case| match &case.mesh.source {
+    let Review { mistakes, notes, case: sound } = case::review(case, overrides, |case| match &case.mesh.source {
         Source::Geo(_) => Ok(mesh::groups(&case.mesh, &args.limits)?),
         Source::Mesh(_) => {
             let mesh = mesh::generated(&case.mesh, &args.limits)?;

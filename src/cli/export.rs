@@ -5,8 +5,8 @@ use super::mesh;
 use super::print::{Outcome, note, print};
 use super::stage::{Inputs, POINTS, Stage};
 use crate::case::checked::Encoding;
+use crate::case::parts;
 use crate::case::raw::Product;
-use crate::case::{Keys, parts};
 use crate::error::{Error, Result};
 use crate::io::export::Exported;
 pub use crate::io::export::STAGE;
@@ -24,8 +24,8 @@ pub struct Args {
     pub unfinished: bool,
 }
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
-    let stage = Stage::open(&args.stage, keys)?;
+pub fn run(args: &Args) -> Outcome {
+    let stage = Stage::open(&args.stage)?;
     stage.lock()?;
     let run = if args.unfinished { unfinished(&stage)? } else { shown(&stage)? };
     work(&stage, &run, stage.folder())

@@ -9,7 +9,7 @@ use crate::case::names::{Groups, Of};
 use crate::case::raw::Product;
 use crate::case::unconnected::{self, Place};
 use crate::case::unmeant;
-use crate::case::{Keys, checked, scheme};
+use crate::case::{checked, scheme};
 use crate::error::{Error, Result};
 use crate::io::{atomic, provenance};
 use crate::machine;
@@ -82,8 +82,8 @@ fn program() -> Result<PathBuf> {
     std::env::current_exe().map_err(|e| Error::machine("mpm", format!("it cannot find itself: {e}"), "mount /proc"))
 }
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
-    work(&Stage::open(&args.stage, keys)?, &args.gmsh)
+pub fn run(args: &Args) -> Outcome {
+    work(&Stage::open(&args.stage)?, &args.gmsh)
 }
 
 /// Whether `mesh.msh` is there and would come out the same, which nobody knows of a `.geo` that may execute programs.

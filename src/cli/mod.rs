@@ -18,7 +18,7 @@ mod solve;
 mod stage;
 mod sweep;
 
-use crate::case::Keys;
+use crate::case;
 use crate::error::Error;
 use crate::mesh::gmsh;
 use crate::program;
@@ -75,24 +75,19 @@ enum Command {
 
 /// Runs the program on the arguments of the process.
 pub fn main() -> ExitCode {
-    with(&Keys::default())
-}
-
-/// As [`main`], for cases that may have the `keys`: what the `main` of a program with keys of its own calls.
-pub fn with(keys: &Keys) -> ExitCode {
     let outcome = match Cli::parse().command {
-        Command::New(args) => new::run(&args, keys),
-        Command::Mesh(args) => mesh::run(&args, keys),
-        Command::Seed(args) => seed::run(&args, keys),
-        Command::Solve(args) => solve::run(&args, keys),
-        Command::Export(args) => export::run(&args, keys),
-        Command::Run(args) => run::run(&args, keys),
-        Command::Sweep(args) => sweep::run(&args, keys),
-        Command::Check(args) => check::run(&args, keys),
-        Command::Plot(args) => plot::run(&args, keys),
-        Command::Report(args) => report::run(&args, keys),
+        Command::New(args) => new::run(&args),
+        Command::Mesh(args) => mesh::run(&args),
+        Command::Seed(args) => seed::run(&args),
+        Command::Solve(args) => solve::run(&args),
+        Command::Export(args) => export::run(&args),
+        Command::Run(args) => run::run(&args),
+        Command::Sweep(args) => sweep::run(&args),
+        Command::Check(args) => check::run(&args),
+        Command::Plot(args) => plot::run(&args),
+        Command::Report(args) => report::run(&args),
         Command::Info(args) => info::run(&args),
-        Command::Schema => print::print(&format!("{:#}\n", keys.schema())),
+        Command::Schema => print::print(&format!("{:#}\n", case::schema())),
         Command::Completions(args) => completions::run(&args, &Cli::command()),
         Command::Man(args) => man::run(&args, Cli::command()),
         Command::GmshWorker => gmsh::serve().map_err(Vec::from),

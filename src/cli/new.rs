@@ -4,7 +4,7 @@ mod geometry;
 mod templates;
 
 use super::print::{Outcome, note, print};
-use crate::case::{Keys, source::Source, structure::suggest};
+use crate::case::{self, source::Source, structure::suggest};
 use crate::error::{Error, Result, plain, shown};
 use crate::io::atomic;
 use serde_json::Value;
@@ -32,7 +32,7 @@ pub struct Args {
 /// The entry of a case whose entries are parameters of the `.geo`: in a template they stand there.
 const PARAMETERS: &str = "mesh.parameters";
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
+pub fn run(args: &Args) -> Outcome {
     let Some(name) = args.template.as_ref().filter(|_| !args.list) else { return print(&list()) };
     let template = TEMPLATES.iter().find(|template| template.name == name).ok_or_else(|| {
         let known = TEMPLATES.iter().map(|template| template.name);
@@ -50,7 +50,7 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     // With the .geo in place the whole is checked as a case is: messages name the --set that they are about.
     let source = read(&args.overrides)?;
     source.notes().iter().for_each(|text| note(text));
-    keys.resolved(source)?;
+    case::resolved(source)?;
     written.write("case.yaml", &read(&entries)?.rewritten()?)?;
     written.write("Makefile", MAKEFILE)?;
     written.write("README.md", &with_changes(template.readme, &args.overrides))?;

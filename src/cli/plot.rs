@@ -5,7 +5,6 @@ pub mod field;
 mod table;
 
 use super::print::Outcome;
-use crate::case::Keys;
 use crate::error::Error;
 use std::path::PathBuf;
 
@@ -23,12 +22,9 @@ pub struct Args {
     field: field::Args,
 }
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
+pub fn run(args: &Args) -> Outcome {
     if let Some(name) = &args.field.field {
-        return args
-            .cases
-            .iter()
-            .try_for_each(|case| field::run(case, args.output.as_deref(), name, &args.field, keys));
+        return args.cases.iter().try_for_each(|case| field::run(case, args.output.as_deref(), name, &args.field));
     }
     let tables: Vec<PathBuf> = args.cases.iter().filter_map(|path| table::of(path)).collect();
     match &tables[..] {
@@ -50,5 +46,5 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
         let problem = "a run alone has no distribution";
         return Err(Error::input("--distribution", problem, "name the table.csv of a sweep").into());
     }
-    curves::run(&args.cases, args.output.as_deref(), &args.curves, args.field.unfinished, keys)
+    curves::run(&args.cases, args.output.as_deref(), &args.curves, args.field.unfinished)
 }

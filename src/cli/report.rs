@@ -4,7 +4,7 @@ use super::args::{CaseArgs, StageArgs};
 use super::print::{Outcome, print};
 use super::stage::Stage;
 use super::{mesh, plot, solve};
-use crate::case::{Keys, parts};
+use crate::case::parts;
 use crate::draw::field::{Asked, Field, Options};
 use crate::draw::history::Run;
 use crate::error::{Error, Result};
@@ -44,9 +44,9 @@ pub struct Args {
     unfinished: bool,
 }
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
+pub fn run(args: &Args) -> Outcome {
     let stage = StageArgs { case: args.case.clone(), output: args.from.clone(), threads: None };
-    let stage = Stage::open(&stage, keys)?;
+    let stage = Stage::open(&stage)?;
     let path = args.output.clone().unwrap_or_else(|| stage.folder().join("report.html"));
     if !path.extension().is_some_and(|kind| kind == "html" || kind == "htm") {
         return Err(Error::input(path.display(), "a report is HTML", "let the name end in .html").into());
@@ -98,7 +98,6 @@ pub fn run(args: &Args, keys: &Keys) -> Outcome {
     };
     let subject = Subject {
         loaded: &stage.loaded,
-        keys,
         mesh,
         run: &run,
         pictures,

@@ -3,7 +3,6 @@
 use super::print::{Outcome, note, print};
 use super::stage::Stage;
 use super::{export, mesh, seed, solve, sweep};
-use crate::case::Keys;
 use crate::error::{Kind, Result};
 use crate::io::run_folder::STAGE;
 
@@ -25,9 +24,9 @@ pub struct Args {
 /// A stage: its name, whether it may be skipped, and its work.
 type Entry<'a> = (&'static str, &'a dyn Fn(&Stage) -> Result<bool>, &'a dyn Fn(&Stage) -> Outcome);
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
+pub fn run(args: &Args) -> Outcome {
     args.end_with.map_or(Ok(()), sweep::end_with)?;
-    let stage = Stage::open(&args.solve.stage, keys)?;
+    let stage = Stage::open(&args.solve.stage)?;
     stage.lock()?;
     let stages: [Entry; 4] = [
         (mesh::STAGE, &|stage| mesh::is_current(stage, &args.gmsh), &|stage| mesh::work(stage, &args.gmsh)),

@@ -5,7 +5,7 @@ use super::mesh;
 use super::print::{Outcome, note, print};
 use super::stage::{Inputs, Stage};
 use crate::case::raw::Product;
-use crate::case::{Keys, at_rest, seeding};
+use crate::case::{at_rest, seeding};
 use crate::error::Result;
 use crate::io::points_vtu::{self, Source};
 use crate::io::{hash, provenance};
@@ -13,8 +13,8 @@ use crate::io::{hash, provenance};
 /// The name of the stage, in its record.
 pub const STAGE: &str = "seed";
 
-pub fn run(args: &StageArgs, keys: &Keys) -> Outcome {
-    work(&Stage::open(args, keys)?)
+pub fn run(args: &StageArgs) -> Outcome {
+    work(&Stage::open(args)?)
 }
 
 /// Whether `points.vtu` is there and would come out the same.

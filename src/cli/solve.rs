@@ -6,7 +6,7 @@ use super::stage::{Inputs, Stage};
 use super::{mesh, seed, signals};
 use crate::case::raw::Product;
 use crate::case::scene::{self, Begin};
-use crate::case::{Keys, Loaded, start};
+use crate::case::{Loaded, start};
 use crate::error::{Error, Kind, Result, plain_lines};
 use crate::io::checkpoint::Checkpoints;
 use crate::io::hash;
@@ -42,8 +42,8 @@ pub struct Start {
     pub fresh: bool,
 }
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
-    work(&Stage::open(&args.stage, keys)?, args.start)
+pub fn run(args: &Args) -> Outcome {
+    work(&Stage::open(&args.stage)?, args.start)
 }
 
 /// Whether the results are there and would come out the same.

@@ -6,7 +6,7 @@
 use super::args::{CaseArgs, StageArgs};
 use super::print::note;
 use crate::case::raw::Product;
-use crate::case::{Keys, Loaded};
+use crate::case::{self, Loaded};
 use crate::error::{Error, Result};
 use crate::io::checkpoint::Fingerprint;
 use crate::io::lock::Lock;
@@ -30,14 +30,14 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// Loads the case, which may have the `keys`; writes nothing.
+    /// Loads the case; writes nothing.
     ///
     /// # Errors
     /// Every mistake of the case.
-    pub fn open(args: &StageArgs, keys: &Keys) -> std::result::Result<Self, Vec<Error>> {
+    pub fn open(args: &StageArgs) -> std::result::Result<Self, Vec<Error>> {
         let CaseArgs { case, overrides } = &args.case;
         use_threads(args.threads)?;
-        let loaded = keys.load(case, overrides)?;
+        let loaded = case::load(case, overrides)?;
         loaded.source.notes().iter().for_each(|text| note(text));
         let folder = args.output.clone().unwrap_or_else(|| loaded.source.folder().join("out"));
         // A slash at its end would lead through a link.

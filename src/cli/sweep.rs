@@ -11,7 +11,7 @@ use super::print::{Outcome, note, print};
 use super::signals;
 use super::solve;
 use super::stage::Stage;
-use crate::case::Keys;
+use crate::case;
 use crate::error::{Error, Result};
 use crate::io::{atomic, lock::Lock, sweep_table};
 use crate::reading;
@@ -63,10 +63,10 @@ pub struct Args {
 /// How often ended runs and signals are looked for.
 const TICK: Duration = Duration::from_millis(50);
 
-pub fn run(args: &Args, keys: &Keys) -> Outcome {
+pub fn run(args: &Args) -> Outcome {
     // In other commands this thread is one of the pool. Here it only waits for the runs: they would wait for it, on one core for ever.
     let _ = rayon::ThreadPoolBuilder::new().build_global();
-    let sweep = Sweep::new(args, keys)?;
+    let sweep = Sweep::new(args)?;
     if args.list {
         let names: Vec<&str> = sweep.runs.iter().map(|run| run.name.as_str()).collect();
         return print(&format!("{}\n", names.join("\n")));
@@ -105,21 +105,20 @@ pub fn end_with(parent: u32) -> Result<()> {
 
 struct Sweep<'a> {
     args: &'a Args,
-    keys: &'a Keys,
     axes: Vec<Axis>,
     runs: Vec<Run>,
     folder: PathBuf,
 }
 
 impl<'a> Sweep<'a> {
-    fn new(args: &'a Args, keys: &'a Keys) -> Result<Self> {
+    fn new(args: &'a Args) -> Result<Self> {
         let axes = axes::parse(&args.axes)?;
         let runs = axes::combinations(&axes)?;
         let beside = if args.case.is_dir() { Some(args.case.as_path()) } else { args.case.parent() };
         let folder = args.output.clone().unwrap_or_else(|| beside.unwrap_or(Path::new("")).join("sweep"));
         // A slash at its end would lead through a link.
         let folder = folder.components().collect();
-        Ok(Self { args, keys, axes, runs, folder })
+        Ok(Self { args, axes, runs, folder })
     }
 
     /// The runs of these names.
@@ -138,7 +137,7 @@ impl<'a> Sweep<'a> {
         let mut told = HashSet::new();
         let mut mistakes = Vec::new();
         for run in &self.runs {
-            for mistake in self.keys.load(&self.args.case, &self.overrides(run)).err().into_iter().flatten() {
+            for mistake in case::load(&self.args.case, &self.overrides(run)).err().into_iter().flatten() {
                 if told.insert(mistake.to_string()) {
                     mistakes.push(mistake);
                 }
@@ -159,7 +158,7 @@ impl<'a> Sweep<'a> {
     /// The output folder of a run, with its case.
     fn stage(&self, run: &Run) -> std::result::Result<Stage, Vec<Error>> {
         let case = CaseArgs { case: self.args.case.clone(), overrides: self.overrides(run) };
-        Stage::open(&StageArgs { case, output: Some(self.out(run)), threads: None }, self.keys)
+        Stage::open(&StageArgs { case, output: Some(self.out(run)), threads: None })
     }
 
     /// Does `runs`, several at a time.

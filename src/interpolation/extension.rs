@@ -33,10 +33,9 @@ impl Extension {
         &self.node[self.node_start[cell as usize] as usize..self.node_start[cell as usize + 1] as usize]
     }
 
-    /// The rows of `T` of a cell: one for each function beyond its own nodes.
-    pub fn rows(&self, cell: u32) -> std::slice::ChunksExact<'_, f64> {
-        let range = self.row_start[cell as usize] as usize..self.row_start[cell as usize + 1] as usize;
-        self.combination[range].chunks_exact(self.nodes(cell).len().max(1))
+    /// The rows of `T` of a cell, one for each function beyond its own nodes.
+    pub fn rows(&self, cell: u32) -> &[f64] {
+        &self.combination[self.row_start[cell as usize] as usize..self.row_start[cell as usize + 1] as usize]
     }
 
     /// Writes the coefficients of the functions of a cell with `own` nodes for a field on the nodes, where there are zeros.
@@ -57,9 +56,7 @@ impl Extension {
         }
         // Four rows at once: the field is fetched a quarter as often, and the sums do not wait for each other.
         let count = nodes.len();
-        let rows =
-            &self.combination[self.row_start[cell as usize] as usize..self.row_start[cell as usize + 1] as usize];
-        for (local, rows) in local[own..].chunks_mut(4).zip(rows.chunks(4 * count)) {
+        for (local, rows) in local[own..].chunks_mut(4).zip(self.rows(cell).chunks(4 * count)) {
             if let ([l0, l1, l2, l3], true) = (&mut *local, rows.len() == 4 * count) {
                 let (r0, rest) = rows.split_at(count);
                 let (r1, rest) = rest.split_at(count);

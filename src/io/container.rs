@@ -131,6 +131,11 @@ impl Store {
         self.texts.get(name).map(String::as_str).ok_or_else(|| self.missing("text", name))
     }
 
+    /// Whether there is an array of this name.
+    pub fn has(&self, name: &str) -> bool {
+        self.components(name).is_some()
+    }
+
     /// Numbers in a tuple of an array, if there is one of this name.
     pub(super) fn components(&self, name: &str) -> Option<usize> {
         self.arrays.iter().find(|array| array.name == name).map(|array| array.components)

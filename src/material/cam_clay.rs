@@ -33,7 +33,7 @@ pub use bulk::Swelling;
 pub use parameters::KIND;
 
 use super::model::equivalent_plastic;
-use super::{Elasticity, Law, Model, Moduli, PrincipalModel, Profile, Response, State, Variable, VariableKind};
+use super::{Elasticity, Model, Moduli, Profile, Response, State, Variable, VariableKind};
 use crate::error::{Error, Result};
 use bulk::Bulk;
 use std::sync::Arc;
@@ -247,7 +247,7 @@ impl CamClay {
     }
 }
 
-impl PrincipalModel for CamClay {
+impl Model for CamClay {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
         let moduli = self.elasticity.at(y);
         let volumetric = trial[0] + trial[1] + trial[2];
@@ -344,12 +344,6 @@ impl PrincipalModel for CamClay {
         let [a, b, c] = stress;
         let q = (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt();
         Self::excess(self.slope(state), -(a + b + c) / 3.0, q, self.size(y, state.first_variable()))
-    }
-}
-
-impl Model for CamClay {
-    fn law(&self) -> Law<'_> {
-        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {

@@ -11,7 +11,7 @@
 //! models are Kirchhoff stresses: soil that is stretched by voids loses `4/3 s_u/J` of what it bears beyond its mean stress. `k` makes up for more than that, or the
 //! voids of soil in uniform tension would gather in one place. Models are those whose yield and flow do not know the mean stress.
 
-use super::{Elasticity, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, Variable};
+use super::{Elasticity, Model, Parameter, Parameters, Profile, Response, State, Variable};
 use crate::error::{Error, Result};
 use std::sync::Arc;
 
@@ -108,7 +108,7 @@ pub const PARAMETER: Parameter = Parameter {
 ///
 /// # Errors
 /// Unless the limit is positive and less than a quarter of the bulk modulus, at its datum.
-pub fn limited<M: PrincipalModel + 'static>(
+pub fn limited<M: Model + 'static>(
     model: M,
     reduced: fn(&M, f64) -> M,
     parameters: &Parameters,
@@ -123,7 +123,7 @@ pub fn limited<M: PrincipalModel + 'static>(
     }
 }
 
-impl<M: PrincipalModel> Cavitating<M> {
+impl<M: Model> Cavitating<M> {
     fn law(&self, y: f64) -> Volumetric {
         Volumetric::of(&self.model, self.model.elasticity().at(y).bulk(), self.limit.at(y), y)
     }
@@ -139,7 +139,7 @@ impl<M: PrincipalModel> Cavitating<M> {
     }
 }
 
-impl<M: PrincipalModel + 'static> PrincipalModel for Cavitating<M> {
+impl<M: Model + 'static> Model for Cavitating<M> {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
         let mut response = self.model.respond(y, trial, state, internal);
         let (law, strain) = (self.law(y), trial.iter().sum::<f64>());
@@ -153,12 +153,6 @@ impl<M: PrincipalModel + 'static> PrincipalModel for Cavitating<M> {
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         self.model.yield_excess(y, stress, state)
-    }
-}
-
-impl<M: PrincipalModel + 'static> Model for Cavitating<M> {
-    fn law(&self) -> Law<'_> {
-        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {

@@ -12,7 +12,7 @@
 //! # Ok::<(), mpm::error::Error>(())
 //! ```
 
-use super::{PrincipalModel, Response, State, Variable};
+use super::{Model, Response, State, Variable};
 use crate::error::{Error, Result};
 use nalgebra::{Matrix3, Vector3};
 
@@ -32,11 +32,7 @@ const ITERATIONS: usize = 50;
 ///
 /// # Errors
 /// If the prescribed stresses cannot be reached, beyond the strength for example.
-pub fn drive(
-    model: &dyn PrincipalModel,
-    y: f64,
-    path: impl IntoIterator<Item = [Control; 3]>,
-) -> Result<Vec<Response>> {
+pub fn drive(model: &dyn Model, y: f64, path: impl IntoIterator<Item = [Control; 3]>) -> Result<Vec<Response>> {
     drive_from(model, y, [0.0; 3], path)
 }
 
@@ -45,7 +41,7 @@ pub fn drive(
 /// # Errors
 /// As [`drive`].
 pub fn drive_from(
-    model: &dyn PrincipalModel,
+    model: &dyn Model,
     y: f64,
     mut elastic: [f64; 3],
     path: impl IntoIterator<Item = [Control; 3]>,
@@ -82,7 +78,7 @@ pub fn drive_from(
 
 /// Newton's method for the strains of the axes whose stress is prescribed.
 fn step(
-    model: &dyn PrincipalModel,
+    model: &dyn Model,
     y: f64,
     controls: &[Control; 3],
     elastic: &[f64; 3],

@@ -1,6 +1,6 @@
 //! Hencky elasticity without yield.
 
-use super::{Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Response, State};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Response, State};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -35,19 +35,13 @@ impl LinearElastic {
     }
 }
 
-impl PrincipalModel for LinearElastic {
+impl Model for LinearElastic {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
         Response::elastic(&self.elasticity.at(y), trial, state)
     }
 
     fn yield_excess(&self, _: f64, _: &[f64; 3], _: &State) -> f64 {
         f64::NEG_INFINITY
-    }
-}
-
-impl Model for LinearElastic {
-    fn law(&self) -> Law<'_> {
-        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {

@@ -4,8 +4,7 @@
 //! `ε_A = ½ ln b_A` and Kirchhoff stresses `τ_A`: the return maps are those of small strain theory.
 //!
 //! A model is a file with its [`Kind`] and one line in [`MODELS`]; the shared tests find it there. It may have any number of internal
-//! variables ([`Model::internal_variables`]). One that depends on directions, as of a back stress, responds to the strain tensor
-//! ([`TensorModel`]).
+//! variables ([`Model::internal_variables`]).
 
 pub mod cam_clay;
 pub mod cavitation;
@@ -21,7 +20,6 @@ pub mod random_strength;
 pub mod softening_tresca;
 pub mod spatial;
 pub mod spectral;
-pub mod tensor_law;
 pub mod tresca;
 pub mod von_mises;
 
@@ -29,8 +27,7 @@ pub use cam_clay::{CamClay, Swelling};
 pub use elasticity::{Elasticity, Moduli};
 pub use linear_elastic::LinearElastic;
 pub use model::{
-    Law, Model, PrincipalModel, Response, State, TensorModel, TensorResponse, Variable, VariableKind, internal_count,
-    is_beyond_yield, odd_poisson, on_poisson, yield_excess,
+    Model, Response, State, Variable, VariableKind, internal_count, is_beyond_yield, odd_poisson, on_poisson,
 };
 pub use mohr_coulomb::{Friction, MohrCoulomb};
 pub use parameters::{Kind, Parameter, Parameters};

@@ -3,7 +3,7 @@
 use super::elasticity::{Elasticity, Moduli};
 use super::spectral;
 use crate::error::Result;
-use crate::tensor::{Symmetric, Tensor};
+use crate::tensor::Symmetric;
 use std::ops::RangeInclusive;
 use std::sync::Arc;
 
@@ -45,8 +45,6 @@ pub struct State<'a> {
     pub internal: &'a [f64],
     /// Steps a second (1/s): one over the size of the step in hand, 0 where time plays no part.
     pub inverse_dt: f64,
-    /// The deformation of the step, which turns tensors; none where nothing turns.
-    pub increment: Option<&'a Tensor>,
     /// The strength over that of the model's parameters (-): 1, or the value of a field ([`super::RandomStrength`]). A model multiplies those
     /// of its parameters by it that [`Model::reduced`] divides.
     pub strength: f64,
@@ -65,7 +63,7 @@ impl State<'_> {
 /// Nothing has happened yet, and the strength is that of the parameters.
 impl Default for State<'_> {
     fn default() -> Self {
-        Self { plastic_strain: 0.0, internal: &[], inverse_dt: 0.0, increment: None, strength: 1.0, stiffening: 0.0 }
+        Self { plastic_strain: 0.0, internal: &[], inverse_dt: 0.0, strength: 1.0, stiffening: 0.0 }
     }
 }
 
@@ -97,44 +95,6 @@ impl Response {
     }
 }
 
-/// A model in principal values: isotropic, with scalar internal variables.
-pub trait PrincipalModel: Model {
-    /// The response at a point seeded at height `y` (m) to the elastic trial Hencky strains. `internal` holds the internal
-    /// variables at the beginning of the step, and when the model has responded those at its end.
-    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response;
-
-    /// How far principal Kirchhoff stresses, in any order, lie outside the yield surface at height `y` in a state, at
-    /// rest, as a stress (kPa); negative inside.
-    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64;
-}
-
-/// The answer of a [`TensorModel`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TensorResponse {
-    /// Kirchhoff stress (kPa), tension positive.
-    pub stress: Symmetric,
-    /// `D_ijkl = ∂τ_ij/∂ε_kl` (kPa), the elastic trial strain symmetric: row ij, column kl in the order of [`Symmetric`], so that
-    /// `δτ_a = Σ_b D_ab w_b δε_b` with `w = 2` for shear.
-    pub tangent: [[f64; 6]; 6],
-    /// Elastic Hencky strain after the return (-).
-    pub elastic_strain: Symmetric,
-    /// Accumulated equivalent plastic strain (-).
-    pub plastic_strain: f64,
-    /// Whether the point yielded: has to be true wherever `elastic_strain` is not the trial strain.
-    pub yielding: bool,
-}
-
-/// A model of the strain tensor, with tensors among its internal variables. It has to be an isotropic function of strain and
-/// internal variables together: anisotropy enters only through the internal variables.
-pub trait TensorModel: Model {
-    /// As [`PrincipalModel::respond`], to the elastic trial Hencky strain. The tensors in `internal` have been turned with the
-    /// step, those in `state` have not. In plane strain and axisymmetry their components yz and xz have to be zero.
-    fn respond(&self, y: f64, trial: &Symmetric, state: &State, internal: &mut [f64]) -> TensorResponse;
-
-    /// As [`PrincipalModel::yield_excess`].
-    fn yield_excess(&self, y: f64, stress: &Symmetric, state: &State) -> f64;
-}
-
 /// The tangent `a_ijkl` (kPa) in three dimensions: row (i, j), column (k, l) in the order xx, xy, xz, yx, …
 pub type SolidTangent = [[f64; 9]; 9];
 
@@ -153,16 +113,15 @@ pub struct Spatial<T> {
     pub yielding: bool,
 }
 
-/// What a model responds to.
-pub enum Law<'a> {
-    Principal(&'a dyn PrincipalModel),
-    Tensor(&'a dyn TensorModel),
-}
-
-/// A material model.
+/// A material model: isotropic, in principal values, with scalar internal variables.
 pub trait Model: Send + Sync {
-    /// What it responds to: mostly `Law::Principal(self)` or `Law::Tensor(self)`.
-    fn law(&self) -> Law<'_>;
+    /// The response at a point seeded at height `y` (m) to the elastic trial Hencky strains. `internal` holds the internal
+    /// variables at the beginning of the step, and when the model has responded those at its end.
+    fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response;
+
+    /// How far principal Kirchhoff stresses, in any order, lie outside the yield surface at height `y` in a state, at
+    /// rest, as a stress (kPa); negative inside.
+    fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64;
 
     /// Its internal variables.
     fn internal_variables(&self) -> &[Variable] {
@@ -180,19 +139,10 @@ pub trait Model: Send + Sync {
         }
     }
 
-    /// The model as a [`PrincipalModel`], if it responds to principal strains.
-    fn principal(&self) -> Option<&dyn PrincipalModel> {
-        match self.law() {
-            Law::Principal(model) => Some(model),
-            Law::Tensor(_) => None,
-        }
-    }
-
     /// The elastic part, which is isotropic; where that depends on the pressure, what stands for it wherever one stiffness is asked for.
     fn elasticity(&self) -> &Elasticity;
 
-    /// Whether the tangent with respect to the strain is symmetric in every state (associated flow). With internal tensors the system is taken as
-    /// unsymmetric in any case, since they turn with the step.
+    /// Whether the tangent with respect to the strain is symmetric in every state (associated flow).
     fn symmetric(&self) -> bool;
 
     /// The shear strength (kPa) at height `y` in a state, at rest: `s_u`, `σ_y/√3`, `c`, in Modified Cam-Clay that of the
@@ -255,19 +205,11 @@ pub trait Model: Send + Sync {
 /// How far beyond yield (-), in the strength or the stress, a stress is told of.
 const BEYOND: f64 = 1e-3;
 
-/// How far a Kirchhoff stress lies outside the yield surface of a model at height `y` in a state, at rest, as a stress (kPa); negative
-/// inside.
-pub fn yield_excess(model: &dyn Model, y: f64, stress: &Symmetric, state: &State) -> f64 {
-    match model.law() {
-        Law::Principal(model) => model.yield_excess(y, &spectral::roots(stress), state),
-        Law::Tensor(model) => model.yield_excess(y, stress, state),
-    }
-}
-
 /// Whether a Kirchhoff stress at height `y` is more than a model bears in a state, at rest.
 pub fn is_beyond_yield(model: &dyn Model, y: f64, stress: &Symmetric, state: &State) -> bool {
-    let unit = spectral::roots(stress).iter().fold(model.shear_strength(y, state), |most, s| most.max(s.abs()));
-    model.yields() && yield_excess(model, y, stress, state) > BEYOND * unit
+    let stress = spectral::roots(stress);
+    let unit = stress.iter().fold(model.shear_strength(y, state), |most, s| most.max(s.abs()));
+    model.yields() && model.yield_excess(y, &stress, state) > BEYOND * unit
 }
 
 /// Numbers that a point carries of the internal variables of a model.

@@ -5,10 +5,7 @@
 //! cut-off is associated. Dilation ends with the plastic volume strain that the soil may take up ([`Planes::respond_within`]).
 
 use super::polyhedral::Planes;
-use super::{
-    Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, Variable,
-    VariableKind,
-};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, Variable, VariableKind};
 use crate::error::{Error, Result};
 use std::sync::Arc;
 
@@ -209,7 +206,7 @@ impl MohrCoulomb {
     }
 }
 
-impl PrincipalModel for MohrCoulomb {
+impl Model for MohrCoulomb {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
         let (planes, moduli) = (self.planes(y, state), self.elasticity.at(y));
         let Some(cutoff) = self.dilation_cutoff else { return planes.respond(&moduli, trial, state) };
@@ -223,12 +220,6 @@ impl PrincipalModel for MohrCoulomb {
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         self.planes(y, state).excess(stress)
-    }
-}
-
-impl Model for MohrCoulomb {
-    fn law(&self) -> Law<'_> {
-        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {

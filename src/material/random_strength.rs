@@ -39,14 +39,6 @@ pub enum Correlation {
 }
 
 impl Correlation {
-    /// The correlation (-) at a distance `d` (-) in scales of fluctuation.
-    pub fn at(self, d: f64) -> f64 {
-        match self {
-            Self::Markov => (-2.0 * d).exp(),
-            Self::Gaussian => (-PI * d * d).exp(),
-        }
-    }
-
     /// The wave number, times the scale of fluctuation, above which the spectral density in the plane has the part `left` (-) of the variance.
     fn wave_number(self, left: f64) -> f64 {
         match self {

@@ -20,8 +20,8 @@
 
 use super::polyhedral::Planes;
 use super::{
-    Elasticity, Kind, Law, Model, Moduli, Parameter, Parameters, PrincipalModel, Profile, Response, State, Variable,
-    VariableKind, cavitation,
+    Elasticity, Kind, Model, Moduli, Parameter, Parameters, Profile, Response, State, Variable, VariableKind,
+    cavitation,
 };
 use crate::error::{Error, Result};
 use std::f64::consts::LN_10;
@@ -213,7 +213,7 @@ fn falls(c: f64, slope: f64) -> f64 {
     (1.0 + 2.0 * c * slope).max(LEAST)
 }
 
-impl PrincipalModel for SofteningTresca {
+impl Model for SofteningTresca {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, internal: &mut [f64]) -> Response {
         let moduli = self.elasticity.at(y);
         let (before, strength) = (internal[0], self.first(y, state));
@@ -262,12 +262,6 @@ impl PrincipalModel for SofteningTresca {
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         Self::planes(self.first(y, state), self.softening.factor(state.first_variable(), 0.0, 0.0).0).excess(stress)
-    }
-}
-
-impl Model for SofteningTresca {
-    fn law(&self) -> Law<'_> {
-        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {

@@ -1,5 +1,5 @@
 //! From the elastic trial left Cauchy–Green tensor to Kirchhoff stress and spatial tangent: what takes a
-//! model from principal axes to the grid. Models of the strain tensor: [`super::tensor_law`].
+//! model from principal axes to the grid.
 //!
 //! With `b = ΔF b_n ΔFᵀ` and the velocity-like gradient `l = δF F⁻¹`, `δb = l b + b lᵀ`, the stress changes
 //! by `δτ_ij = C_ijkl l_kl` where, in the axes of `b` with roots `λ_A`,
@@ -12,7 +12,7 @@
 //! `(τ_A − τ_B)/(ε_A − ε_B)`, exactly 2G in elasticity, and `(ε_A − ε_B)/(λ_A − λ_B)`, which is smooth.
 
 pub use super::model::{SolidTangent, Spatial};
-use super::{Law, Model, PrincipalModel, Response, State, spectral, tensor_law};
+use super::{Model, Response, State, spectral};
 use crate::tensor::Symmetric;
 
 /// Hencky strains closer than this count as equal in the secant modulus of a yielding point. Above it
@@ -42,17 +42,17 @@ pub fn plane(
     internal: &mut [f64],
 ) -> Option<Spatial<PlaneTangent>> {
     begin(model, y, state, internal);
-    match model.law() {
-        Law::Principal(principal) => plane_of_principal((principal, model), y, trial, state, internal),
-        Law::Tensor(tensor) => {
-            let solid = tensor_law::respond(tensor, y, trial, state, internal)?;
-            // xx, xy, yx, yy and zz among all components.
-            let of = |k: usize| [0, 1, 3, 4, 8][k];
-            let tangent = std::array::from_fn(|a| std::array::from_fn(|b| solid.tangent[of(a)][of(b)]));
-            let Spatial { kirchhoff, elastic, plastic_strain, yielding, .. } = solid;
-            Some(Spatial { kirchhoff, elastic, tangent, plastic_strain, yielding })
-        }
+    let b = spectral::Plane::of(trial);
+    let roots = b.roots();
+    if !roots.iter().all(|&x| x > 0.0 && x.is_finite()) {
+        return None;
     }
+    let strain = roots.map(|x| 0.5 * x.ln());
+    let r = model.respond(y, &strain, state, internal);
+    let kirchhoff = b.with_roots(&r.stress);
+    let elastic = if r.yielding { b.with_roots(&r.elastic_strain.map(|e| (2.0 * e).exp())) } else { *trial };
+    let tangent = plane_tangent(&b, &strain, &stiffened(model, y, &strain, state, &r), &kirchhoff);
+    Some(Spatial { kirchhoff, elastic, tangent, plastic_strain: r.plastic_strain, yielding: r.yielding })
 }
 
 /// The internal variables as a step begins.
@@ -66,26 +66,6 @@ fn begin(model: &dyn Model, y: f64, state: &State, internal: &mut [f64]) {
     } else {
         internal.copy_from_slice(state.internal);
     }
-}
-
-fn plane_of_principal(
-    (principal, model): (&dyn PrincipalModel, &dyn Model),
-    y: f64,
-    trial: &Symmetric,
-    state: &State,
-    internal: &mut [f64],
-) -> Option<Spatial<PlaneTangent>> {
-    let b = spectral::Plane::of(trial);
-    let roots = b.roots();
-    if !roots.iter().all(|&x| x > 0.0 && x.is_finite()) {
-        return None;
-    }
-    let strain = roots.map(|x| 0.5 * x.ln());
-    let r = principal.respond(y, &strain, state, internal);
-    let kirchhoff = b.with_roots(&r.stress);
-    let elastic = if r.yielding { b.with_roots(&r.elastic_strain.map(|e| (2.0 * e).exp())) } else { *trial };
-    let tangent = plane_tangent(&b, &strain, &stiffened(model, y, &strain, state, &r), &kirchhoff);
-    Some(Spatial { kirchhoff, elastic, tangent, plastic_strain: r.plastic_strain, yielding: r.yielding })
 }
 
 /// A response with the tangents of `τ + θ C ε`, the modulus of turning among them, where the state wants a part `θ` of the elastic stiffness added to what
@@ -167,19 +147,6 @@ pub fn solid(
     internal: &mut [f64],
 ) -> Option<Spatial<SolidTangent>> {
     begin(model, y, state, internal);
-    match model.law() {
-        Law::Principal(principal) => solid_of_principal((principal, model), y, trial, state, internal),
-        Law::Tensor(model) => tensor_law::respond(model, y, trial, state, internal),
-    }
-}
-
-fn solid_of_principal(
-    (principal, model): (&dyn PrincipalModel, &dyn Model),
-    y: f64,
-    trial: &Symmetric,
-    state: &State,
-    internal: &mut [f64],
-) -> Option<Spatial<SolidTangent>> {
     if !trial.iter().all(|x| x.is_finite()) {
         return None;
     }
@@ -188,7 +155,7 @@ fn solid_of_principal(
         return None;
     }
     let strain = roots.map(|x| 0.5 * x.ln());
-    let r = principal.respond(y, &strain, state, internal);
+    let r = model.respond(y, &strain, state, internal);
     let kirchhoff = spectral::compose(&r.stress, &axes);
     let elastic =
         if r.yielding { spectral::compose(&r.elastic_strain.map(|e| (2.0 * e).exp()), &axes) } else { *trial };

@@ -3,9 +3,7 @@
 //! The return is that of [`super::polyhedral`] without friction.
 
 use super::polyhedral::Planes;
-use super::{
-    Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, cavitation,
-};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -61,19 +59,13 @@ impl Tresca {
     }
 }
 
-impl PrincipalModel for Tresca {
+impl Model for Tresca {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
         self.planes(y, state).respond(&self.elasticity.at(y), trial, state)
     }
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         self.planes(y, state).excess(stress)
-    }
-}
-
-impl Model for Tresca {
-    fn law(&self) -> Law<'_> {
-        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {

@@ -5,9 +5,7 @@
 //! tension; the strength in simple shear is `yield_stress/√3`. No hardening.
 
 use super::model::equivalent_plastic;
-use super::{
-    Elasticity, Kind, Law, Model, Parameter, Parameters, PrincipalModel, Profile, Response, State, cavitation,
-};
+use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, cavitation};
 use crate::error::Result;
 use std::sync::Arc;
 
@@ -68,7 +66,7 @@ impl VonMises {
     }
 }
 
-impl PrincipalModel for VonMises {
+impl Model for VonMises {
     fn respond(&self, y: f64, trial: &[f64; 3], state: &State, _: &mut [f64]) -> Response {
         let moduli = self.elasticity.at(y);
         let sy = self.yield_stress.at(y) * state.strength;
@@ -101,12 +99,6 @@ impl PrincipalModel for VonMises {
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         let [a, b, c] = stress;
         (0.5 * ((a - b).powi(2) + (b - c).powi(2) + (c - a).powi(2))).sqrt() - self.yield_stress.at(y) * state.strength
-    }
-}
-
-impl Model for VonMises {
-    fn law(&self) -> Law<'_> {
-        Law::Principal(self)
     }
 
     fn elasticity(&self) -> &Elasticity {

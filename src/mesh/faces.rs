@@ -32,8 +32,6 @@ pub struct Faces {
     pub boundary: Vec<(u32, u8)>,
     /// The sides of cell `c` are numbered `first_side[c]..first_side[c + 1]`.
     first_side: Vec<u32>,
-    /// The face at each side; [`BOUNDARY`] at the boundary.
-    face: Vec<u32>,
     /// The cell across each side; [`BOUNDARY`] at the boundary.
     across: Vec<u32>,
     /// The cells of `across` without the boundary, and where those of each cell begin.
@@ -71,12 +69,10 @@ impl Faces {
         }
         faces.inner.sort_unstable_by_key(|face| (face.cells[0], face.sides[0]));
         faces.boundary.sort_unstable();
-        faces.face = vec![BOUNDARY; facets.len()];
         faces.across = vec![BOUNDARY; facets.len()];
-        for (number, face) in faces.inner.iter().enumerate() {
+        for face in &faces.inner {
             for (own, other) in [(0, 1), (1, 0)] {
                 let side = faces.first_side[face.cells[own] as usize] + u32::from(face.sides[own]);
-                faces.face[side as usize] = number as u32;
                 faces.across[side as usize] = face.cells[other];
             }
         }
@@ -95,16 +91,7 @@ impl Faces {
 
     /// The cell across each side of `cell`, one entry a side; [`BOUNDARY`] at the boundary.
     pub fn across(&self, cell: u32) -> &[u32] {
-        &self.across[self.sides(cell)]
-    }
-
-    /// The face (its number in `inner`) at each side of `cell`, one entry a side; [`BOUNDARY`] at the boundary.
-    pub fn at(&self, cell: u32) -> &[u32] {
-        &self.face[self.sides(cell)]
-    }
-
-    fn sides(&self, cell: u32) -> std::ops::Range<usize> {
-        self.first_side[cell as usize] as usize..self.first_side[cell as usize + 1] as usize
+        &self.across[self.first_side[cell as usize] as usize..self.first_side[cell as usize + 1] as usize]
     }
 }
 
@@ -175,7 +162,7 @@ mod tests {
         for kind in CellKind::ALL.into_iter().filter(|k| k.dimension() == 2) {
             let mesh = rectangle(kind, 3.0, 2.0, 5, 4, 0.2, 7);
             let faces = Faces::of(&mesh);
-            for (number, face) in faces.inner.iter().enumerate() {
+            for face in &faces.inner {
                 let nodes = |i: usize| {
                     let of_cell = mesh.cells.nodes(face.cells[i] as usize);
                     kind.facets().1[face.sides[i] as usize].iter().map(|&k| of_cell[k]).collect::<Vec<_>>()
@@ -188,13 +175,11 @@ mod tests {
                 assert!(face.cells[0] < face.cells[1]);
                 for (i, j) in [(0, 1), (1, 0)] {
                     let (cell, side) = (face.cells[i], face.sides[i] as usize);
-                    assert_eq!(faces.at(cell)[side], number as u32);
                     assert_eq!(faces.across(cell)[side], face.cells[j]);
                     assert!(faces.neighbours(cell).contains(&face.cells[j]));
                 }
             }
             for &(cell, side) in &faces.boundary {
-                assert_eq!(faces.at(cell)[side as usize], BOUNDARY);
                 assert_eq!(faces.across(cell)[side as usize], BOUNDARY);
             }
             let neighbours: usize = (0..mesh.cells.len()).map(|c| faces.neighbours(c as u32).len()).sum();

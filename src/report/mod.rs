@@ -5,7 +5,7 @@ mod html;
 mod scene;
 mod variants;
 
-use crate::case::{Keys, Loaded};
+use crate::case::{self, Loaded};
 use crate::draw::curves::{Chart, Charts};
 use crate::draw::field::Field;
 use crate::draw::history::{self, Run, TIME};
@@ -32,7 +32,6 @@ const REMARKS: usize = 60;
 /// What a report is on.
 pub struct Subject<'a> {
     pub loaded: &'a Loaded,
-    pub keys: &'a Keys,
     /// The mesh, or why there is none to show.
     pub mesh: std::result::Result<&'a Mesh<2>, String>,
     pub run: &'a Run,
@@ -110,7 +109,7 @@ impl Subject<'_> {
     }
 
     fn entries(&self) -> Html {
-        let (schema, tree) = (self.keys.schema(), self.loaded.source.tree());
+        let (schema, tree) = (case::schema(), self.loaded.source.tree());
         let kinds = Kinds::of(&schema);
         let named = |block: &str| entries(tree.get(block), name);
         let mut html = Html::default();
@@ -142,7 +141,7 @@ impl Subject<'_> {
     }
 
     fn numerics(&self) -> Html {
-        let schema = self.keys.schema();
+        let schema = case::schema();
         let none = Value::Null;
         Kinds::of(&schema).changed("Numerics", self.loaded.source.tree().get("numerics").unwrap_or(&none))
     }

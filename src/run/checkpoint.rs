@@ -1,4 +1,4 @@
-//! The state as named arrays, for checkpoints, every number bit-exact.
+//! The state as named arrays, for checkpoints, every number bit-exact. One list of them serves both ways.
 
 mod valid;
 
@@ -7,281 +7,266 @@ use crate::contact::Multipliers;
 use crate::error::Result;
 use crate::interpolation::PartlyFilled;
 use crate::io::columns;
-use crate::io::container::Store;
+use crate::io::container::{Scalar, Store};
+use crate::points::Points;
 use crate::quadrature::{Count, Samples, Tally, Weights};
-use crate::step::{Energies, ITEMS, Scene, Span, State, UnbalancedRamp};
+use crate::step::{Energies, Scene, Span, State, UnbalancedRamp};
 use crate::surface::{ActiveBoundary, MarkerFront, Path, Piece, Voids};
 
-const POINTS: &str = "points.";
-const FEM: &str = "fem.";
-const SAMPLES: &str = "sample.";
 /// What a checkpoint has for the area of a void that is no news.
 const NO_NEWS: f64 = -1.0;
 
+/// A store that is written, and what is passed to it is what it takes; or one that is read, and that is what it gives back.
+struct Archive {
+    store: Store,
+    reads: bool,
+}
+
+impl Archive {
+    fn list<E: Entry>(&mut self, name: &str, values: &[E]) -> Result<Vec<E>> {
+        if self.reads {
+            return Ok(self.store.take(name, E::WIDTH)?.chunks_exact(E::WIDTH).map(E::of).collect());
+        }
+        let mut numbers = Vec::with_capacity(values.len() * E::WIDTH);
+        values.iter().for_each(|value| value.append(&mut numbers));
+        self.store.put(name, E::WIDTH, numbers);
+        Ok(Vec::new())
+    }
+
+    /// A list of a known length.
+    fn array<E: Entry, const N: usize>(&mut self, name: &str, values: [E; N]) -> Result<[E; N]> {
+        let read = self.list(name, &values)?;
+        if self.reads { read.try_into().map_err(|_| unlike(name)) } else { Ok(values) }
+    }
+
+    /// A list of a known length, or none.
+    fn option<E: Entry, const N: usize>(&mut self, name: &str, values: Option<[E; N]>) -> Result<Option<[E; N]>> {
+        let read = self.list(name, values.as_ref().map_or(&[][..], |values| values))?;
+        if read.is_empty() { Ok(None) } else { read.try_into().map(Some).map_err(|_| unlike(name)) }
+    }
+
+    fn points<const D: usize>(&mut self, prefix: &str, points: &Points<D>) -> Result<Points<D>> {
+        if self.reads {
+            return columns::take(&mut self.store, prefix);
+        }
+        columns::put(&mut self.store, prefix, points);
+        Ok(Points::default())
+    }
+}
+
+fn unlike(name: &str) -> crate::error::Error {
+    foreign(&format!("the length of `{name}`"))
+}
+
+/// An entry of a list, as numbers of one type.
+trait Entry: Copy {
+    type Number: Scalar;
+    const WIDTH: usize;
+
+    fn append(self, numbers: &mut Vec<Self::Number>);
+
+    fn of(numbers: &[Self::Number]) -> Self;
+}
+
+macro_rules! entry {
+    ($($own:ty as $number:ty: $to:expr, $from:expr;)*) => {
+        $(impl Entry for $own {
+            type Number = $number;
+            const WIDTH: usize = 1;
+
+            fn append(self, numbers: &mut Vec<$number>) {
+                numbers.push($to(self));
+            }
+
+            fn of(numbers: &[$number]) -> Self {
+                $from(numbers[0])
+            }
+        })*
+    };
+}
+entry! {
+    f64 as f64: f64::from, f64::from;
+    u64 as u64: u64::from, u64::from;
+    u32 as u32: u32::from, u32::from;
+    bool as u8: u8::from, |flag| flag != 0;
+}
+
+impl<E: Entry, const N: usize> Entry for [E; N] {
+    type Number = E::Number;
+    const WIDTH: usize = N * E::WIDTH;
+
+    fn append(self, numbers: &mut Vec<E::Number>) {
+        self.into_iter().for_each(|entry| entry.append(numbers));
+    }
+
+    fn of(numbers: &[E::Number]) -> Self {
+        std::array::from_fn(|i| E::of(&numbers[i * E::WIDTH..]))
+    }
+}
+
 /// Puts everything in a state into a store for a file of whichever kind.
-pub fn put<const D: usize>(mut store: Store, state: &State<D>) -> Store {
+///
+/// # Errors
+/// None: that is for reading.
+pub fn put<const D: usize>(store: Store, state: &State<D>) -> Result<Store> {
+    let mut archive = Archive { store, reads: false };
+    pass(&mut archive, state)?;
+    Ok(archive.store)
+}
+
+/// The state in a store, as it stands there.
+fn read<const D: usize>(store: Store) -> Result<State<D>> {
+    pass(&mut Archive { store, reads: true }, &State::default())
+}
+
+fn pass<const D: usize>(archive: &mut Archive, state: &State<D>) -> Result<State<D>> {
+    let s = state;
+    let counts = [s.phase as u64, s.step, s.frames, s.moving.into(), s.restorations, s.switched_to_dynamics.into()];
+    let [phase, step, frames, moving, restorations, switched_to_dynamics] = archive.array("state.counts", counts)?;
+    let times = [s.time, s.phase_time, s.step_size, s.last_step, s.peak, s.in_play, s.ramp.from, s.ramp.until];
+    let [time, phase_time, step_size, last_step, peak, in_play, from, until] = archive.array("state.times", times)?;
+    let balanced = s.balanced.map(|last| [last.phase as f64, last.from, last.to]);
+    let balanced = archive.option("state.balanced", balanced)?;
     // No `..`: a new field of the state must find its place here.
-    let State {
-        phase,
+    Ok(State {
+        phase: phase as usize,
         time,
         phase_time,
         step,
         step_size,
         frames,
-        points,
-        fem,
-        fem_parametric,
-        nodes,
-        multipliers,
-        moving,
-        switched_to_dynamics,
+        points: archive.points("points.", &s.points)?,
+        fem: archive.points("fem.", &s.fem)?,
+        fem_parametric: archive.list("state.fem_parametric", &s.fem_parametric)?,
+        nodes: archive.list("state.coordinates", &s.nodes)?,
+        multipliers: pass_multipliers(archive, &s.multipliers)?,
+        moving: moving != 0,
+        switched_to_dynamics: switched_to_dynamics != 0,
         peak,
         in_play,
-        energies,
-        reaction,
-        start_position,
-        ramp,
-        parametric,
-        displacement,
-        increment,
+        energies: archive.option("state.energies", s.energies.map(|energies| energies.0))?.map(Energies),
+        reaction: archive.list("state.reaction", &s.reaction)?,
+        start_position: archive.list("state.start_position", &s.start_position)?,
+        ramp: UnbalancedRamp { force: archive.list("state.ramp", &s.ramp.force)?, from, until },
+        parametric: archive.list("state.parametric", &s.parametric)?,
+        displacement: archive.list("state.displacement", &s.displacement)?,
+        increment: archive.list("state.increment", &s.increment)?,
         last_step,
-        balanced,
-        search_geometry,
-        search_curve,
-        travel,
-        uncounted,
-        pressure,
-        velocity,
-        acceleration,
-        active,
-        penalised,
-        weights,
-        front,
-        voids,
+        balanced: balanced.map(|[phase, from, to]| Span { phase: phase as usize, from, to }),
+        search_geometry: archive.list("state.search_geometry", &s.search_geometry)?,
+        search_curve: archive.list("state.search_curve", &s.search_curve)?,
+        travel: archive.list("state.travel", &s.travel)?,
+        uncounted: archive.list("state.uncounted", &s.uncounted)?,
+        pressure: archive.list("state.pressure", &s.pressure)?,
+        velocity: archive.list("state.velocity", &s.velocity)?,
+        acceleration: archive.list("state.acceleration", &s.acceleration)?,
+        active: archive.list("state.active", &s.active)?,
+        penalised: archive.list("state.penalised", &s.penalised)?,
+        weights: pass_weights(archive, &s.weights)?,
+        front: pass_front(archive, s.front.as_ref())?,
+        voids: pass_voids(archive, &s.voids)?,
         restorations,
-    } = state;
-    store.put(
-        "state.counts",
-        1,
-        vec![*phase as u64, *step, *frames, u64::from(*moving), *restorations, u64::from(*switched_to_dynamics)],
-    );
-    store.put(
-        "state.times",
-        1,
-        vec![*time, *phase_time, *step_size, *last_step, *peak, *in_play, ramp.from, ramp.until],
-    );
-    let last = balanced.map_or_else(Vec::new, |last| vec![last.phase as f64, last.from, last.to]);
-    store.put("state.balanced", 1, last);
-    store.put("state.energies", 1, energies.map_or_else(Vec::new, |energies| energies.0.to_vec()));
-    store.put("state.parametric", 3, parametric.concat());
-    store.put("state.fem_parametric", 3, fem_parametric.concat());
-    for (name, field) in [
-        ("displacement", displacement),
-        ("travel", travel),
-        ("uncounted", uncounted),
-        ("velocity", velocity),
-        ("acceleration", acceleration),
-        ("coordinates", nodes),
-        ("increment", increment),
-        ("start_position", start_position),
-        ("ramp", &ramp.force),
-        ("search_geometry", search_geometry),
-        ("reaction", reaction),
-    ] {
-        store.put(&format!("state.{name}"), D, field.concat());
-    }
-    store.put("state.search_curve", 2, search_curve.concat());
-    store.put("state.pressure", 1, pressure.clone());
-    store.put("state.active", 1, active.iter().map(|&b| u8::from(b)).collect());
-    store.put("state.penalised", 1, penalised.iter().map(|&b| u8::from(b)).collect());
-    put_weighing(&mut store, weights);
-    put_multipliers(&mut store, multipliers);
-    // Without loops where the surface is not followed.
-    let (markers, loops) = front.as_ref().map_or((Vec::new(), Vec::new()), |f| (f.position.concat(), f.first.clone()));
-    store.put("front.position", 2, markers);
-    store.put("front.first", 1, loops);
-    store.put("voids.of_cell", 1, voids.of_cell.clone());
-    store.put("voids.reported", 1, voids.reported.iter().map(|area| area.unwrap_or(NO_NEWS)).collect());
-    columns::put(&mut store, POINTS, points);
-    columns::put(&mut store, FEM, fem);
-    store
-}
-
-fn put_weighing<const D: usize>(store: &mut Store, weights: &Weights<D>) {
-    // Why a front was lost has been told when it was.
-    let Weights {
-        samples,
-        weight,
-        partly_filled,
-        ill_conditioned,
-        boundary,
-        level_set,
-        tally,
-        lost_front: _,
-        notes: _,
-        beyond: _,
-        renewed: _,
-    } = weights;
-    let Tally { linear, constant, taken, point_volume, volume, population: Count { split, merged, starved } } = tally;
-    if let Some(Samples { points, parametric, outside, .. }) = samples {
-        columns::put(store, SAMPLES, points);
-        store.put("samples.parametric", 3, parametric.concat());
-        store.put("samples.outside", 1, outside.clone());
-    }
-    store.put("weights.weight", 1, weight.clone());
-    store.put("weights.partly_filled", 1, partly_filled.iter().map(|s| s.cell).collect());
-    store.put("weights.emptiness", 1, partly_filled.iter().map(|s| s.emptiness).collect());
-    store.put("weights.ill_conditioned", 1, ill_conditioned.clone());
-    store.put("weights.level_set", 1, level_set.clone());
-    let ActiveBoundary { pieces, first } = boundary;
-    store.put("boundary.first", 1, first.clone());
-    let path = |path: &Path| [path.ends, path.rates].concat().concat();
-    store.put(
-        "boundary.paths",
-        2,
-        pieces.iter().flat_map(|piece| [path(&piece.path), path(&piece.in_host)].concat()).collect(),
-    );
-    let numbers = |piece: &Piece| [piece.cell, piece.host, u32::from(piece.region), u32::from(piece.wall)];
-    store.put("boundary.numbers", 4, pieces.iter().flat_map(numbers).collect());
-    store.put("weights.cells", 1, vec![*linear, *constant, *taken, *split, *merged, *starved]);
-    store.put("weights.volume", 1, vec![*point_volume, *volume]);
-}
-
-fn take_weighing<const D: usize>(store: &mut Store) -> Result<Weights<D>> {
-    let samples = match store.take_if_present::<f64>("samples.parametric", 3)? {
-        Some(parametric) => Some(Samples {
-            points: columns::take(store, SAMPLES)?,
-            parametric: vectors(&parametric),
-            outside: store.take::<u32>("samples.outside", 1)?,
-            motion: Vec::new(),
-        }),
-        None => None,
-    };
-    let weight = store.take::<f64>("weights.weight", 1)?;
-    let (partly_filled, emptiness) =
-        (store.take::<u32>("weights.partly_filled", 1)?, store.take::<f64>("weights.emptiness", 1)?);
-    if partly_filled.len() != emptiness.len() {
-        return Err(foreign("what it says of cells"));
-    }
-    let partly_filled =
-        partly_filled.into_iter().zip(emptiness).map(|(cell, emptiness)| PartlyFilled { cell, emptiness }).collect();
-    let ill_conditioned = store.take::<u32>("weights.ill_conditioned", 1)?;
-    let level_set = store.take::<f64>("weights.level_set", 1)?;
-    let boundary = take_boundary(store)?;
-    let (cells, volume) = (store.take::<u32>("weights.cells", 1)?, store.take::<f64>("weights.volume", 1)?);
-    let ([linear, constant, taken, split, merged, starved], [point_volume, volume]) = (&cells[..], &volume[..]) else {
-        return Err(foreign("its weights"));
-    };
-    let population = Count { split: *split, merged: *merged, starved: *starved };
-    let (point_volume, volume) = (*point_volume, *volume);
-    let tally = Tally { linear: *linear, constant: *constant, taken: *taken, point_volume, volume, population };
-    let (lost_front, notes, beyond, renewed) = (None, Vec::new(), None, None);
-    Ok(Weights {
-        samples,
-        weight,
-        partly_filled,
-        ill_conditioned,
-        boundary,
-        level_set,
-        tally,
-        lost_front,
-        notes,
-        beyond,
-        renewed,
     })
 }
 
-fn take_boundary(store: &mut Store) -> Result<ActiveBoundary> {
-    let first = store.take::<u32>("boundary.first", 1)?;
-    let (paths, numbers) = (store.take::<f64>("boundary.paths", 2)?, store.take::<u32>("boundary.numbers", 4)?);
-    if paths.len() != 4 * numbers.len() {
-        return Err(foreign("its boundary"));
+fn pass_weights<const D: usize>(archive: &mut Archive, weights: &Weights<D>) -> Result<Weights<D>> {
+    let w = weights;
+    let Tally { linear, constant, taken, point_volume, volume, population: Count { split, merged, starved } } = w.tally;
+    let cells = [linear, constant, taken, split, merged, starved];
+    let [linear, constant, taken, split, merged, starved] = archive.array("weights.cells", cells)?;
+    let [point_volume, volume] = archive.array("weights.volume", [point_volume, volume])?;
+    let population = Count { split, merged, starved };
+    let there = if archive.reads { archive.store.has("samples.parametric") } else { w.samples.is_some() };
+    let none = Samples::default();
+    let samples = there.then(|| pass_samples(archive, w.samples.as_ref().unwrap_or(&none))).transpose()?;
+    let cells: Vec<u32> = w.partly_filled.iter().map(|s| s.cell).collect();
+    let emptiness: Vec<f64> = w.partly_filled.iter().map(|s| s.emptiness).collect();
+    let cells = archive.list("weights.partly_filled", &cells)?;
+    let emptiness = archive.list("weights.emptiness", &emptiness)?;
+    if cells.len() != emptiness.len() {
+        return Err(unlike("weights.emptiness"));
     }
-    let piece = |(paths, numbers): (&[f64], &[u32])| {
-        let two = |k: usize| [[paths[k], paths[k + 1]], [paths[k + 2], paths[k + 3]]];
-        let path = |k: usize| Path { ends: two(k), rates: two(k + 4) };
-        let region = u16::try_from(numbers[2]).map_err(|_| foreign("a region of its boundary"))?;
-        let wall = flag(numbers[3], "its boundary")?;
-        Ok(Piece { cell: numbers[0], path: path(0), wall, region, host: numbers[1], in_host: path(8) })
+    let partly_filled = cells.into_iter().zip(emptiness).map(|(cell, emptiness)| PartlyFilled { cell, emptiness });
+    Ok(Weights {
+        samples,
+        weight: archive.list("weights.weight", &w.weight)?,
+        partly_filled: partly_filled.collect(),
+        ill_conditioned: archive.list("weights.ill_conditioned", &w.ill_conditioned)?,
+        boundary: pass_boundary(archive, &w.boundary)?,
+        level_set: archive.list("weights.level_set", &w.level_set)?,
+        tally: Tally { linear, constant, taken, point_volume, volume, population },
+        // Why a front was lost has been told when it was.
+        lost_front: None,
+        notes: Vec::new(),
+        beyond: None,
+        renewed: None,
+    })
+}
+
+fn pass_samples<const D: usize>(archive: &mut Archive, samples: &Samples<D>) -> Result<Samples<D>> {
+    Ok(Samples {
+        points: archive.points("sample.", &samples.points)?,
+        parametric: archive.list("samples.parametric", &samples.parametric)?,
+        outside: archive.list("samples.outside", &samples.outside)?,
+        motion: Vec::new(),
+    })
+}
+
+fn pass_boundary(archive: &mut Archive, boundary: &ActiveBoundary) -> Result<ActiveBoundary> {
+    let pieces = &boundary.pieces;
+    let paths: Vec<_> = pieces.iter().map(|p| [&p.path, &p.in_host].map(|path| [path.ends, path.rates])).collect();
+    let numbers: Vec<_> = pieces.iter().map(|p| [p.cell, p.host, p.region.into(), p.wall.into()]).collect();
+    let paths = archive.list("boundary.paths", &paths)?;
+    let numbers = archive.list("boundary.numbers", &numbers)?;
+    if paths.len() != numbers.len() {
+        return Err(unlike("boundary.paths"));
+    }
+    let piece = |(paths, [cell, host, region, wall]): ([[[[f64; 2]; 2]; 2]; 2], [u32; 4])| {
+        let [path, in_host] = paths.map(|[ends, rates]| Path { ends, rates });
+        let region = u16::try_from(region).map_err(|_| foreign("a region of its boundary"))?;
+        Ok(Piece { cell, path, wall: wall != 0, region, host, in_host })
     };
-    let pieces = paths.chunks_exact(16).zip(numbers.chunks_exact(4)).map(piece).collect::<Result<_>>()?;
-    Ok(ActiveBoundary { pieces, first })
+    let pieces = paths.into_iter().zip(numbers).map(piece).collect::<Result<_>>()?;
+    Ok(ActiveBoundary { pieces, first: archive.list("boundary.first", &boundary.first)? })
 }
 
-/// Vectors of `D` components, one after the other.
-fn vectors<const D: usize>(values: &[f64]) -> Vec<[f64; D]> {
-    values.chunks_exact(D).map(|v| std::array::from_fn(|d| v[d])).collect()
-}
-
-/// A truth value that is stored as 0 or 1.
-fn flag(value: impl Into<u64>, name: &str) -> Result<bool> {
-    match value.into() {
-        0 => Ok(false),
-        1 => Ok(true),
-        _ => Err(foreign(name)),
-    }
-}
-
-fn flags(store: &mut Store, name: &str) -> Result<Vec<bool>> {
-    store.take::<u8>(name, 1)?.into_iter().map(|value| flag(value, name)).collect()
-}
-
-fn put_multipliers(store: &mut Store, interfaces: &[Multipliers]) {
-    store.put("contact.interfaces", 1, vec![interfaces.len() as u64]);
-    for (i, Multipliers { pressure, shear, gap, slip, slid, force, faces, apart, room, first }) in
-        interfaces.iter().enumerate()
-    {
-        for (name, values) in [("pressure", pressure), ("shear", shear), ("gap", gap), ("slip", slip), ("slid", slid)] {
-            store.put(&format!("contact.{i}.{name}"), 1, values.clone());
-        }
-        store.put(&format!("contact.{i}.force"), 3, force.concat());
-        for (name, flags) in [("faces", faces), ("apart", apart)] {
-            store.put(&format!("contact.{i}.{name}"), 1, flags.iter().map(|&b| u8::from(b)).collect());
-        }
-        store.put(&format!("contact.{i}.room"), 1, room.clone());
-        store.put(&format!("contact.{i}.first"), 1, first.clone());
-    }
-}
-
-fn take_multipliers(store: &mut Store) -> Result<Vec<Multipliers>> {
-    let [count] = store.take::<u64>("contact.interfaces", 1)?[..] else { return Err(foreign("its contact")) };
-    let interface = |i: u64| {
-        let mut values = |name: &str| store.take::<f64>(&format!("contact.{i}.{name}"), 1);
-        let (pressure, shear, gap) = (values("pressure")?, values("shear")?, values("gap")?);
-        let (slip, slid) = (values("slip")?, values("slid")?);
-        let force = store.take::<f64>(&format!("contact.{i}.force"), 3)?;
-        let force = force.chunks_exact(3).map(|f| [f[0], f[1], f[2]]).collect();
-        let [faces, apart] =
-            [flags(store, &format!("contact.{i}.faces"))?, flags(store, &format!("contact.{i}.apart"))?];
-        let mut numbers = |name: &str| store.take::<u32>(&format!("contact.{i}.{name}"), 1);
-        let (room, first) = (numbers("room")?, numbers("first")?);
-        Ok(Multipliers { pressure, shear, gap, slip, slid, force, faces, apart, room, first })
-    };
-    (0..count).map(interface).collect()
-}
-
-fn take_balanced(store: &mut Store) -> Result<Option<Span>> {
-    match store.take::<f64>("state.balanced", 1)?[..] {
-        [] => Ok(None),
-        [phase, from, to] => Ok(Some(Span { phase: phase as usize, from, to })),
-        _ => Err(foreign("its last step")),
-    }
-}
-
-fn take_energies(store: &mut Store) -> Result<Option<Energies>> {
-    let values = store.take::<f64>("state.energies", 1)?;
-    match <[f64; ITEMS.len()]>::try_from(&values[..]) {
-        Ok(values) => Ok(Some(Energies(values))),
-        Err(_) if values.is_empty() => Ok(None),
-        Err(_) => Err(foreign("its energies")),
-    }
-}
-
-fn take_front(store: &mut Store) -> Result<Option<MarkerFront>> {
-    let position = vectors(&store.take::<f64>("front.position", 2)?);
-    let first = store.take::<u32>("front.first", 1)?;
+/// Without loops where the surface is not followed.
+fn pass_front(archive: &mut Archive, front: Option<&MarkerFront>) -> Result<Option<MarkerFront>> {
+    let position = archive.list("front.position", front.map_or(&[], |front| &front.position))?;
+    let first = archive.list("front.first", front.map_or(&[], |front| &front.first))?;
     let none = position.is_empty() && first.is_empty();
     Ok((!none).then_some(MarkerFront { position, first }))
+}
+
+fn pass_voids(archive: &mut Archive, voids: &Voids) -> Result<Voids> {
+    let reported: Vec<f64> = voids.reported.iter().map(|area| area.unwrap_or(NO_NEWS)).collect();
+    let reported = archive.list("voids.reported", &reported)?;
+    Ok(Voids {
+        of_cell: archive.list("voids.of_cell", &voids.of_cell)?,
+        reported: reported.into_iter().map(|area| (area != NO_NEWS).then_some(area)).collect(),
+    })
+}
+
+fn pass_multipliers(archive: &mut Archive, interfaces: &[Multipliers]) -> Result<Vec<Multipliers>> {
+    let none = Multipliers::default();
+    let [count] = archive.array("contact.interfaces", [interfaces.len() as u64])?;
+    let interface = |i: u64| {
+        let m = interfaces.get(i as usize).unwrap_or(&none);
+        let name = |list: &str| format!("contact.{i}.{list}");
+        Ok(Multipliers {
+            pressure: archive.list(&name("pressure"), &m.pressure)?,
+            shear: archive.list(&name("shear"), &m.shear)?,
+            gap: archive.list(&name("gap"), &m.gap)?,
+            slip: archive.list(&name("slip"), &m.slip)?,
+            slid: archive.list(&name("slid"), &m.slid)?,
+            force: archive.list(&name("force"), &m.force)?,
+            faces: archive.list(&name("faces"), &m.faces)?,
+            apart: archive.list(&name("apart"), &m.apart)?,
+            room: archive.list(&name("room"), &m.room)?,
+            first: archive.list(&name("first"), &m.first)?,
+        })
+    };
+    (0..count).map(interface).collect()
 }
 
 /// The state in which a run of `scene` begins its phase number `begun`, given that at the end of the phase before, in another run with the same
@@ -314,70 +299,5 @@ pub fn after_phase<const D: usize>(store: Store, scene: &Scene<D>, first: &State
 pub fn take<const D: usize>(store: Store, scene: &Scene<D>, first: &State<D>) -> Result<State<D>> {
     let state = read(store)?;
     valid::check(scene, first, &state)?;
-    Ok(state)
-}
-
-/// The state in a store, as it stands there.
-fn read<const D: usize>(mut store: Store) -> Result<State<D>> {
-    let counts = store.take::<u64>("state.counts", 1)?;
-    let times = store.take::<f64>("state.times", 1)?;
-    let (
-        [phase, step, frames, moving, restorations, switched_to_dynamics],
-        [time, phase_time, step_size, last_step, peak, in_play, from, until],
-    ) = (&counts[..], &times[..])
-    else {
-        return Err(foreign("its list of counts"));
-    };
-    let mut nodal = |name: &str| Ok(vectors(&store.take::<f64>(&format!("state.{name}"), D)?));
-    let (displacement, travel, increment) = (nodal("displacement")?, nodal("travel")?, nodal("increment")?);
-    let (velocity, acceleration, nodes) = (nodal("velocity")?, nodal("acceleration")?, nodal("coordinates")?);
-    let (uncounted, force, start_position) = (nodal("uncounted")?, nodal("ramp")?, nodal("start_position")?);
-    let (search_geometry, reaction) = (nodal("search_geometry")?, nodal("reaction")?);
-    let reported = |area: f64| (area != NO_NEWS).then_some(area);
-    let state = State {
-        phase: usize::try_from(*phase).map_err(|_| foreign("the number of its phase"))?,
-        time: *time,
-        phase_time: *phase_time,
-        step: *step,
-        step_size: *step_size,
-        frames: *frames,
-        points: columns::take(&mut store, POINTS)?,
-        fem: columns::take(&mut store, FEM)?,
-        fem_parametric: vectors(&store.take::<f64>("state.fem_parametric", 3)?),
-        nodes,
-        multipliers: take_multipliers(&mut store)?,
-        moving: flag(*moving, "whether it moves")?,
-        switched_to_dynamics: flag(*switched_to_dynamics, "whether it falls")?,
-        peak: *peak,
-        in_play: *in_play,
-        energies: take_energies(&mut store)?,
-        reaction,
-        start_position,
-        ramp: UnbalancedRamp { force, from: *from, until: *until },
-        parametric: vectors(&store.take::<f64>("state.parametric", 3)?),
-        displacement,
-        increment,
-        last_step: *last_step,
-        balanced: take_balanced(&mut store)?,
-        search_geometry,
-        search_curve: vectors(&store.take::<f64>("state.search_curve", 2)?),
-        travel,
-        uncounted,
-        pressure: store.take::<f64>("state.pressure", 1)?,
-        velocity,
-        acceleration,
-        active: flags(&mut store, "state.active")?,
-        penalised: flags(&mut store, "state.penalised")?,
-        weights: take_weighing(&mut store)?,
-        front: take_front(&mut store)?,
-        voids: Voids {
-            of_cell: store.take::<u32>("voids.of_cell", 1)?,
-            reported: store.take("voids.reported", 1)?.into_iter().map(reported).collect(),
-        },
-        restorations: *restorations,
-    };
-    if let Some(array) = store.into_arrays().first() {
-        return Err(foreign(&format!("the array `{}`", array.name)));
-    }
     Ok(state)
 }

@@ -104,7 +104,7 @@ impl<const D: usize> From<State<D>> for First<D> {
 pub fn run<const D: usize, K: Kinematics<D>>(
     scene: &Scene<D>,
     first: impl Into<First<D>>,
-    outputs: &Outputs<D>,
+    outputs: &Outputs,
     resume: bool,
     stop: &AtomicBool,
     progress: &mut dyn FnMut(Progress),
@@ -312,7 +312,7 @@ impl Written {
 
 /// The open files of a run.
 struct Files<'a, const D: usize> {
-    outputs: &'a Outputs<D>,
+    outputs: &'a Outputs,
     checkpoints: Checkpoints,
     history: History,
     energy: History,
@@ -327,7 +327,7 @@ struct Files<'a, const D: usize> {
 impl<'a, const D: usize> Files<'a, D> {
     fn open(
         scene: &Scene<D>,
-        outputs: &'a Outputs<D>,
+        outputs: &'a Outputs,
         checkpoints: Checkpoints,
         state: &State<D>,
         written: Option<Written>,
@@ -383,7 +383,7 @@ impl<'a, const D: usize> Files<'a, D> {
     fn end_of_phase(&mut self, state: &State<D>) -> Result<()> {
         let Some(Some(end)) = self.outputs.ends.get(state.phase).cloned() else { return Ok(()) };
         let (folder, number) = (self.outputs.folder.phases(), state.phase);
-        let store = checkpoint::put(phase_state::store(), state);
+        let store = checkpoint::put(phase_state::store(), state)?;
         self.writer.submit(move || phase_state::save(&folder, number, &end, store))
     }
 
@@ -418,7 +418,7 @@ impl<'a, const D: usize> Files<'a, D> {
     /// Hands a checkpoint to the writer.
     fn checkpoint(&mut self, state: &State<D>) -> Result<()> {
         let (checkpoints, step, mut store) =
-            (self.checkpoints.clone(), state.step, checkpoint::put(Checkpoints::store(), state));
+            (self.checkpoints.clone(), state.step, checkpoint::put(Checkpoints::store(), state)?);
         let (history, energy, log) = (self.history.mark(), self.energy.mark(), self.log.mark());
         let frames = Arc::clone(&self.frames);
         self.writer.submit(move || {

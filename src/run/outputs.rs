@@ -7,16 +7,15 @@ use super::surface::Acting;
 use crate::io::phase_state::End;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
-use std::sync::Arc;
 
 /// What a run writes, and where.
-#[derive(Clone, Debug)]
-pub struct Outputs<const D: usize> {
+#[derive(Clone)]
+pub struct Outputs {
     pub folder: RunFolder,
     /// What is told of the case as the run begins.
     pub warnings: Vec<String>,
     /// The fields of the points in the frames.
-    pub fields: Vec<Arc<dyn Field<D>>>,
+    pub fields: Vec<Field>,
     pub watches: Vec<Watch>,
     /// What ends each phase before its time.
     pub until: Vec<Vec<Until>>,

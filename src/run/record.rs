@@ -4,7 +4,6 @@ use super::accepted;
 use super::boundary;
 use super::fields::Field;
 use super::surface::{self, Acting};
-use crate::dofs::PORE_PRESSURE;
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part, UNCOUNTED, VOLUME, triples};
 use crate::io::provenance::Origin;
@@ -12,7 +11,6 @@ use crate::points::Points;
 use crate::quadrature::Count;
 use crate::rigid::Body;
 use crate::step::{ITEMS, Report, Restore, Scene, Side, State};
-use std::sync::Arc;
 
 /// A quantity of the history, with its component.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -172,7 +170,7 @@ pub fn value<const D: usize>(
         }
         (WatchedOn::Nodes(nodes), Quantity::PorePressure) => {
             let [places, _] = scene.places();
-            let value = |n: u32| state.pressure.get(places.field(PORE_PRESSURE, n)).filter(|_| scene.water.is_some());
+            let value = |n: u32| state.pressure.get(places.pore(n)).filter(|_| scene.water.is_some());
             mean(nodes.iter().map(|&n| value(n).copied().unwrap_or(0.0)))
         }
         (WatchedOn::Region(region), Quantity::PorePressure) => {
@@ -229,12 +227,12 @@ fn mean_over<const D: usize>(state: &State<D>, region: u16, value: impl Fn(&Poin
 pub fn frame<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,
-    fields: &[Arc<dyn Field<D>>],
+    fields: &[Field],
     origin: Origin,
     acting: Option<&Acting>,
 ) -> Frame {
     let nodes = scene.mesh_nodes();
-    let displacement = fields.iter().any(|field| field.is_displacement());
+    let displacement = fields.iter().any(|field| matches!(field, Field::Displacement));
     // A grid that is restored and follows nothing stays where the mesh has it.
     let grid = if scene.numerics.restore == Restore::EveryStep && scene.fem.is_none() && !scene.moves_curves() {
         Part::default()
@@ -268,8 +266,8 @@ pub fn frame<const D: usize>(
 }
 
 /// The fields of some points.
-fn part<const D: usize>(points: &Points<D>, fields: &[Arc<dyn Field<D>>]) -> Part {
-    let columns = fields.iter().flat_map(|field| field.columns(points)).collect();
+fn part<const D: usize>(points: &Points<D>, fields: &[Field]) -> Part {
+    let columns = fields.iter().filter_map(|field| field.column(points)).collect();
     Part { columns, position: triples(&points.position) }
 }
 

@@ -5,9 +5,9 @@ use super::drainage;
 use super::facing;
 use super::family::{Family, Interpolations, System};
 use super::fem::Elements;
-use super::field;
 use super::ghost_faces;
 use super::nodal_fit::Filled;
+use super::pore_pressure;
 use super::pressure;
 use super::relax::{self, Relaxed};
 use super::restore::{begin_anew, fill, take_weights};
@@ -83,7 +83,7 @@ impl<const D: usize> Grid<D> {
         if scene.has_pressure_field() {
             grid.project_pressure_of_elements::<K>(scene, state);
         }
-        grid.project_scalars::<K>(scene, state);
+        grid.project_pore_pressure::<K>(scene, state);
         Ok(grid)
     }
 
@@ -100,7 +100,7 @@ impl<const D: usize> Grid<D> {
             }
             self.penalise(scene, state);
         }
-        self.project_scalars::<K>(scene, state);
+        self.project_pore_pressure::<K>(scene, state);
         Ok(())
     }
 
@@ -151,23 +151,23 @@ impl<const D: usize> Grid<D> {
         // The mass always takes a penalty on faces, the motion only where a term says so.
         let mut connectivity = if scene.terms.iter().any(|t| t.penalises_faces()) { connectivity } else { cells_only };
         let constraint_coupling = facing::couple(state, &dofs, &mut connectivity);
-        let with_pressure = scene.has_scalars().then(|| {
-            let (with_pressure, fields, part) = (scene.has_pressure_field(), scene.scalars().count(), &state.active);
+        let with_pressure = scene.pressure_unit.is_some().then(|| {
+            let (with_pressure, with_water, part) = (scene.has_pressure_field(), scene.water.is_some(), &state.active);
             let mut families = vec![Carrier {
                 mesh,
                 places,
                 with_pressure: Box::new(move |c| with_pressure && part[c as usize]),
-                fields: Box::new(move |c| if part[c as usize] { fields } else { 0 }),
+                with_water: Box::new(move |c| with_water && part[c as usize]),
                 coupling: &coupling,
             }];
             families.extend(elements.iter().zip(&scene.fem).map(|(elements, fem)| Carrier {
                 mesh: &elements.mesh,
                 places: of_elements,
                 with_pressure: Box::new(|c| fem.with_pressure[c as usize]),
-                fields: Box::new(|c| usize::from(fem.with_water[c as usize])),
+                with_water: Box::new(|c| fem.with_water[c as usize]),
                 coupling: &elements.coupling,
             }));
-            Scalars::new(&families, node.len(), &connectivity, places.end(fields))
+            Scalars::new(&families, node.len(), &connectivity, places.end(with_water))
         });
         let symmetric = scene.basis.is_symmetric() && scene.terms.iter().all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
@@ -224,23 +224,16 @@ impl<const D: usize> Grid<D> {
         }
     }
 
-    /// Takes the scalar fields over from the points.
-    fn project_scalars<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
-        if scene.scalars().next().is_none() {
-            return;
-        }
-        field::make_room(scene, state);
+    /// Takes the pore pressure over from the points.
+    fn project_pore_pressure<K: Kinematics<D>>(&self, scene: &Scene<D>, state: &mut State<D>) {
+        let Some(water) = &scene.water else { return };
         let mut pressure = std::mem::take(&mut state.pressure);
+        let places = scene.places()[0];
+        pressure.resize(places.end(true), 0.0);
         let soil = self.frame(&scene.mesh, state).into();
         let elements = self.elements.as_ref().map(|elements| self.frame_of_elements(scene, elements, state).into());
         let integrated: Vec<_> = std::iter::once(soil).chain(elements).collect();
-        let (mesh, interpolation) = (self.mesh(scene), self.of_material());
-        field::project::<D, K>(
-            scene,
-            &integrated,
-            Filled { mesh, interpolation, points: &state.points },
-            &mut pressure,
-        );
+        pore_pressure::gather::<D, K>(&integrated, &water.porous, &mut pressure[places.pore(0)..]);
         state.pressure = pressure;
     }
 
@@ -348,7 +341,7 @@ impl<const D: usize> Grid<D> {
 }
 
 /// The prescribed increments (m) of displacement in a step of size `dt`, one entry for each equation: zero at supports, and those of curves,
-/// which take precedence; and those of scalar fields.
+/// which take precedence; and those of the pore pressure (kPa), which is not in excess at drained nodes.
 pub fn given_increments<const D: usize>(
     scene: &Scene<D>,
     state: &State<D>,
@@ -373,7 +366,9 @@ pub fn given_increments<const D: usize>(
         give(fixed, 0.0);
     }
     let drained = drainage::nodes(scene, state, grid.integrated(scene, state));
-    field::give(scene, state, (&grid.dofs, &drained), dt, &mut given);
+    for (equation, node) in grid.dofs.pores().filter(|(_, node)| drained.binary_search(node).is_ok()) {
+        given[equation] = Some(0.0 - state.pressure[grid.dofs.places.pore(node)]);
+    }
     given
 }
 

@@ -18,7 +18,6 @@ mod equilibrate;
 mod facing;
 mod family;
 mod fem;
-mod field;
 mod free;
 mod ghost_faces;
 mod grid;
@@ -61,9 +60,7 @@ pub use grid::Grid;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
-pub use scene::{
-    FARTHEST, Fem, Field, Fixed, Numerics, Phase, Prescribed, Restore, Scalar, Scene, Search, StepSize, Stop, Water,
-};
+pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, StepSize, Stop, Water};
 pub use search::kink;
 pub use state::{Span, State};
 pub use water::Balance;
@@ -362,7 +359,6 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         state.balanced =
             balanced.then_some(Span { phase: state.phase, from: state.phase_time, to: state.phase_time + dt });
         state.displacement.clone_from(&solution.displacement);
-        field::to_points::<D, K>(scene, (&scene.mesh, self.grid.of_material()), state, &solution.pressure);
         state.pressure.clone_from(&solution.pressure);
         if start.is_some() {
             state.moving = true;

@@ -122,7 +122,8 @@ impl<'a, const D: usize> Problem<'a, D> {
                     self.converged()[node][component] + increment - at.displacement[node][component]
                 }
                 (Dof::Pressure(place), _) => {
-                    (self.state.pressure[place] + increment - at.pressure[place]) / self.scene.unit(place)
+                    (self.state.pressure[place] + increment - at.pressure[place])
+                        / self.scene.pressure_unit.unwrap_or(1.0)
                 }
             })
         };
@@ -139,7 +140,9 @@ impl<'a, const D: usize> Problem<'a, D> {
                 Dof::Displacement { node, component } => {
                     (&mut at.displacement[node][component], self.converged()[node][component], 1.0)
                 }
-                Dof::Pressure(place) => (&mut at.pressure[place], self.state.pressure[place], self.scene.unit(place)),
+                Dof::Pressure(place) => {
+                    (&mut at.pressure[place], self.state.pressure[place], self.scene.pressure_unit.unwrap_or(1.0))
+                }
             };
             match given {
                 Some(increment) if length == 1.0 => *value = converged + increment,

@@ -1,4 +1,4 @@
-//! The scalar unknowns of a grid: pressures and other fields, numbered after the displacements.
+//! The scalar unknowns of a grid: pressure field and pore pressure, numbered after the displacements.
 
 use crate::dofs::Places;
 use crate::mesh::Mesh;
@@ -48,21 +48,21 @@ impl Scalars {
 pub struct Carrier<'a, const D: usize> {
     pub mesh: &'a Mesh<D>,
     pub places: Places,
-    /// Whether a cell has a pressure field, and how many scalar fields, the first ones.
+    /// Whether a cell has a pressure field, and water in its pores.
     pub with_pressure: Box<dyn Fn(u32) -> bool + 'a>,
-    pub fields: Box<dyn Fn(u32) -> usize + 'a>,
+    pub with_water: Box<dyn Fn(u32) -> bool + 'a>,
     pub coupling: &'a [u32],
 }
 
 impl<const D: usize> Carrier<'_, D> {
     fn cells(&self) -> impl Iterator<Item = u32> {
-        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with_pressure)(c) || (self.fields)(c) > 0)
+        (0..self.mesh.cells.len() as u32).filter(|&c| (self.with_pressure)(c) || (self.with_water)(c))
     }
 
-    /// The scalar unknowns of a cell: of its scalar fields, of its pressure field.
+    /// The scalar unknowns of a cell: of its pore pressure, of its pressure field.
     fn unknowns(&self, cell: u32) -> impl Iterator<Item = u32> {
         let pressure = (self.with_pressure)(cell).then(|| self.places.of_field(self.mesh, cell as usize));
-        let of_fields = self.places.of_fields(self.mesh, cell as usize, (self.fields)(cell));
-        of_fields.chain(pressure.into_iter().flatten())
+        let of_pores = (self.with_water)(cell).then(|| self.places.of_pores(self.mesh, cell as usize));
+        of_pores.into_iter().flatten().chain(pressure.into_iter().flatten())
     }
 }

@@ -37,8 +37,6 @@ pub struct Scene<const D: usize> {
     pub carried: Vec<Option<MixedPressure>>,
     /// The water in the pores, where its pressure is a field of its own.
     pub water: Option<Water>,
-    /// Scalar fields that the material points carry beside it ([`Field`]); none in the cases so far.
-    pub fields: Vec<Field>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,
@@ -99,26 +97,6 @@ impl<const D: usize> Scene<D> {
         )
     }
 
-    /// What an unknown of the linear system stands for in the value at a place of [`super::State::pressure`].
-    pub fn unit(&self, place: usize) -> f64 {
-        let field = self.places()[0].of_scalar(place as u32).and_then(|(k, _)| self.scalars().nth(k));
-        match field {
-            Some(Scalar::Other(_, field)) => field.unit,
-            _ => self.pressure_unit.unwrap_or(1.0),
-        }
-    }
-
-    /// The scalar fields by number, with one unknown a corner each: the pore pressure first ([`crate::dofs::PORE_PRESSURE`]).
-    pub fn scalars(&self) -> impl Iterator<Item = Scalar<'_>> {
-        let others = self.fields.iter().enumerate().map(|(column, field)| Scalar::Other(column, field));
-        self.water.iter().map(Scalar::PorePressure).chain(others)
-    }
-
-    /// Whether there are scalar unknowns beside the displacement.
-    pub fn has_scalars(&self) -> bool {
-        self.pressure_unit.is_some() || !self.fields.is_empty()
-    }
-
     /// Where displacements are given in a phase: supports, prescribed displacements, and structures that the phase leaves out.
     pub fn fixed(&self, phase: usize) -> impl Iterator<Item = &Fixed> {
         let Phase { prescribed, held, .. } = &self.phases[phase];
@@ -173,24 +151,6 @@ impl<const D: usize> Scene<D> {
         let all = self.interfaces.iter().map(|interface| interface.as_ref()).enumerate();
         all.filter(move |(number, _)| !apart.contains(number))
     }
-}
-
-/// What a scalar field is of.
-#[derive(Clone, Copy, Debug)]
-pub enum Scalar<'a> {
-    /// The excess pressure of the water in the pores, which is part of the stress of the points.
-    PorePressure(&'a Water),
-    /// A field that the material points carry along, in a column by its number.
-    Other(usize, &'a Field),
-}
-
-/// A scalar field that the material points carry.
-#[derive(Clone, Debug)]
-pub struct Field {
-    /// What an unknown of the linear system stands for, so that all equations are forces and all unknowns lengths.
-    pub unit: f64,
-    /// Nodes with a given value, ascending, and the value by the time (s) since the phase began; of two entries for a node the later one holds.
-    pub given: Vec<(Vec<u32>, TimeValue)>,
 }
 
 /// Water in the pores.

@@ -89,8 +89,8 @@ pub struct State<const D: usize> {
     /// Its value when a phase last set displacements to zero (`Phase::reset_displacements`), which the history subtracts; empty before that.
     pub uncounted: Vec<[f64; D]>,
     /// The pressure field (kPa, tension positive) by node, at the corners of cells, then the constant of each cell, then
-    /// the excess pore pressure (kPa, compression positive) by node, at the corners of cells, then other scalar fields, by node;
-    /// empty without any.
+    /// the excess pore pressure (kPa, compression positive) by node, at the corners of cells;
+    /// empty without either.
     pub pressure: Vec<f64>,
     /// Velocity (m/s) and acceleration (m/s²) of the nodes; empty in quasi-static analysis.
     pub velocity: Vec<[f64; D]>,

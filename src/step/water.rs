@@ -5,7 +5,6 @@ use super::grid::Grid;
 use super::problem::Solution;
 use super::scene::Scene;
 use super::state::State;
-use crate::dofs::PORE_PRESSURE;
 use crate::term::Trial;
 
 /// The water of a step.
@@ -78,7 +77,7 @@ pub fn balance<const D: usize>(
     if scene.phases[state.phase].flows {
         let drained_nodes = drainage::nodes(scene, state, grid.integrated(scene, state));
         let unit = scene.pressure_unit.unwrap_or(1.0) * (1.0 - state.alpha_f(scene));
-        for (equation, node) in grid.dofs.field(PORE_PRESSURE) {
+        for (equation, node) in grid.dofs.pores() {
             if drained_nodes.binary_search(&node).is_ok() {
                 balance.left += solution.residual[equation] / unit;
             }

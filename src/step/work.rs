@@ -13,7 +13,7 @@ use super::problem::Solution;
 use super::scene::Scene;
 use super::start::Start;
 use super::state::State;
-use crate::dofs::{Dof, PORE_PRESSURE};
+use crate::dofs::Dof;
 use crate::error::{Error, Result};
 use crate::points::Points;
 use crate::term::{Dissipated, Source, Term, Works};
@@ -263,10 +263,10 @@ fn drained<const D: usize>(scene: &Scene<D>, grid: &Grid<D>, state: &State<D>, s
     let unit = scene.pressure_unit.unwrap_or(1.0) * (1.0 - alpha_f);
     let before = if alpha_f > 0.0 { alpha_f } else { 0.5 };
     let places = scene.places()[0];
-    let given = grid.dofs.field(PORE_PRESSURE).filter(|(_, node)| nodes.binary_search(node).is_ok());
+    let given = grid.dofs.pores().filter(|(_, node)| nodes.binary_search(node).is_ok());
     given
         .map(|(equation, node)| {
-            let place = places.field(PORE_PRESSURE, node);
+            let place = places.pore(node);
             let pressure = (1.0 - before) * solution.pressure[place] + before * state.pressure[place];
             pressure * solution.residual[equation] / unit
         })

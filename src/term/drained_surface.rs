@@ -13,7 +13,6 @@
 
 use super::water::{self, Corners, Porous};
 use super::{Assembly, Frame, Term, Trial};
-use crate::dofs::PORE_PRESSURE;
 use crate::error::Result;
 use crate::geometry::dot;
 use crate::kinematics::Kinematics;
@@ -157,7 +156,7 @@ impl<K: Kinematics<2>> DrainedSurface<K> {
         let corners = frame.mesh.cells.kind[piece.host as usize].corner_count();
         let mut pressure = [0.0; water::MOST];
         for (p, &n) in pressure.iter_mut().zip(&frame.mesh.cells.nodes(piece.host as usize)[..corners]) {
-            *p = trial.pressure[frame.places.field(PORE_PRESSURE, n)];
+            *p = trial.pressure[frame.places.pore(n)];
         }
         (corners, pressure)
     }

@@ -18,7 +18,7 @@ use super::{Assembly, Frame, GhostFace, Source, Term, Trial};
 use crate::error::Result;
 use crate::interpolation::{Jump, Jumps};
 use crate::kinematics::Kinematics;
-use crate::material::{Model, yield_excess};
+use crate::material::{Model, spectral};
 use crate::points::Points;
 use crate::system::Local;
 use crate::tensor::deviatoric;
@@ -116,7 +116,8 @@ impl<K> GhostPenalty<K> {
 
 /// The measure `q/√3 + ⟨−f⟩/2` (kPa) of the shear strength at point `p`.
 fn strength<const D: usize>(points: &Points<D>, p: usize, model: &dyn Model) -> f64 {
-    let lacks = -yield_excess(model, points.seeded_height(p), &points.stress[p], &points.state(p, 0.0));
+    let lacks =
+        -model.yield_excess(points.seeded_height(p), &spectral::roots(&points.stress[p]), &points.state(p, 0.0));
     deviatoric(&points.stress[p]) / 3f64.sqrt() + 0.5 * lacks.max(0.0)
 }
 

@@ -30,7 +30,7 @@ use crate::error::{Error, Result};
 use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
-use crate::material::{Model, State, VariableKind, internal_count};
+use crate::material::{Model, State, internal_count};
 use crate::points::Points;
 use crate::profile::timed_material;
 use crate::system::Local;
@@ -123,7 +123,7 @@ impl<K, S> Internal<K, S> {
         let Some(model) = points.by_material(p, models) else {
             return Err(Error::analysis(format!("material point {p}"), "it has no material", ""));
         };
-        let state = State { increment: Some(metric_factor), stiffening, ..points.state(p, inverse_dt) };
+        let state = State { stiffening, ..points.state(p, inverse_dt) };
         let input = ModelInput { model: model.as_ref(), trial, state, end_weight };
         let point = Point { points, entries, ratios: strained.ratios };
         let answer = self.share.respond(cell, &point, &input, internal);
@@ -227,9 +227,7 @@ impl<K, S> Internal<K, S> {
 
 impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S> {
     fn symmetric(&self) -> bool {
-        // The spin of internal tensors has no potential.
-        let has_tensors = |m: &dyn Model| m.internal_variables().iter().any(|v| v.kind == VariableKind::Tensor);
-        !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric() && !has_tensors(m.as_ref()))
+        !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {

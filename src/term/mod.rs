@@ -130,7 +130,7 @@ pub struct Frame<'a, const D: usize> {
     pub points: &'a Points<D>,
     /// What integrals are summed over, where `points` are others.
     pub integration: Option<(&'a Interpolation<D>, &'a Points<D>)>,
-    /// One block a node that takes part, one coupling a cell that does. With scalar fields, one more block of each for each corner,
+    /// One block a node that takes part, one coupling a cell that does. With pore water, one more block for each corner,
     /// which follow in a coupling, and with a pressure field one for each corner and each cell with a constant of its
     /// own; they are the last ones of a coupling.
     pub pattern: &'a Pattern,
@@ -143,14 +143,6 @@ pub struct Frame<'a, const D: usize> {
     pub linear_constraints: Option<&'a LinearConstraints>,
     /// The coupling of each rigid body.
     pub bodies: &'a [u32],
-}
-
-impl<const D: usize> Frame<'_, D> {
-    /// Where the unknowns of scalar field `k` of a cell, by its number in the scene, begin among those of its coupling: one a corner.
-    pub fn field(&self, k: usize, cell: u32) -> usize {
-        let corners = self.mesh.cells.kind[cell as usize].corner_count();
-        D * self.interpolation.nodes(self.mesh, cell).len() + k * corners
-    }
 }
 
 /// Whether the contact status is frozen: contact nodes that were in compression in the step before, or are initially closed, are closed then, whether

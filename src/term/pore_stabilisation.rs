@@ -4,7 +4,6 @@
 //! has water a millionth of that holds a uniform one, too, which nothing else may.
 
 use super::{Assembly, Frame, Porous, Term, Trial};
-use crate::dofs::PORE_PRESSURE;
 use crate::error::Result;
 use crate::interpolation::integrate;
 use crate::kinematics::Kinematics;
@@ -49,7 +48,7 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for PoreStabilisation<K> {
             let nodes = frame.mesh.cells.nodes(cell);
             let corners = frame.mesh.cells.kind[cell].corner_count();
             let gained = |a: usize| {
-                let unknown = frame.places.field(PORE_PRESSURE, nodes[a]);
+                let unknown = frame.places.pore(nodes[a]);
                 trial.pressure[unknown] - trial.converged_pressure[unknown]
             };
             let share = (1.0 - if with { 0.0 } else { DRY }) / corners as f64;

@@ -20,7 +20,6 @@
 
 use super::mixed::{Coupling, Point};
 use super::{Frame, History, Mixed, Trial};
-use crate::dofs::PORE_PRESSURE;
 use crate::geometry::dot;
 use crate::interpolation::{CellPoints, Coefficients, Entries};
 use crate::kinematics::{Gradient, Kinematics};
@@ -175,7 +174,7 @@ impl<const D: usize, K: Kinematics<D>> Mixed<D, K> for PoreWater<K> {
         let corners = kind.corner_count();
         let (mut pressure, mut gained) = ([0.0; MOST], [0.0; MOST]);
         for (a, &n) in frame.mesh.cells.nodes(cell)[..corners].iter().enumerate() {
-            let unknown = frame.places.field(PORE_PRESSURE, n);
+            let unknown = frame.places.pore(n);
             pressure[a] = trial.pressure[unknown];
             gained[a] = pressure[a] - trial.converged_pressure[unknown];
         }

@@ -1,7 +1,7 @@
 //! One mutant after another through a reader.
 
 use crate::memory;
-use crate::mutate::Random;
+use crate::mutate::{self, Random};
 use mpm::error::Kind;
 use std::collections::HashSet;
 use std::fs;
@@ -34,15 +34,21 @@ pub trait Reader: Sync {
     }
 
     /// Changes file `number` of the corpus; true where its checksums are right.
-    fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool);
+    fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool) {
+        let mut file = self.corpus()[number].clone();
+        mutate::bytes(random, &mut file, self.corpus());
+        (file, false)
+    }
 
     /// File `number` of the corpus, its checksums made anew as those of mutants are.
     fn again(&self, number: usize) -> Vec<u8> {
         self.corpus()[number].clone()
     }
 
-    /// The file that a text in the folder of faults describes.
-    fn fault(&self, text: &[u8]) -> Vec<u8>;
+    /// The file that a text in the folder of faults describes: mostly itself.
+    fn fault(&self, text: &[u8]) -> Vec<u8> {
+        text.to_vec()
+    }
 
     /// Reads a file and uses what it holds.
     fn read(&self, bytes: &[u8]) -> Read;

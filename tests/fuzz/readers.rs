@@ -4,7 +4,6 @@ use crate::files::{self, Container};
 use crate::harness::{Read, Reader};
 use crate::mutate::{self, Random};
 use crate::scenes::{self, Ready};
-use mpm::case::Keys;
 use mpm::error::Error;
 use mpm::io::checkpoint::{Checkpoints as Kept, Fingerprint};
 use mpm::io::export::Regions;
@@ -61,20 +60,10 @@ impl Reader for Cases {
         false
     }
 
-    fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool) {
-        let mut file = self.corpus[number].clone();
-        mutate::bytes(random, &mut file, &self.corpus);
-        (file, false)
-    }
-
-    fn fault(&self, text: &[u8]) -> Vec<u8> {
-        text.to_vec()
-    }
-
     fn read(&self, bytes: &[u8]) -> Read {
         let path = self.folder.path().join("case.yaml");
         fs::write(&path, bytes).unwrap();
-        let loaded = Keys::default().load(&path, &[]).map_err(|mut errors| errors.remove(0))?;
+        let loaded = mpm::case::load(&path, &[]).map_err(|mut errors| errors.remove(0))?;
         Ok(meaning(&loaded.source.tree()))
     }
 }
@@ -136,10 +125,6 @@ impl Reader for Meshes {
         }
     }
 
-    fn fault(&self, text: &[u8]) -> Vec<u8> {
-        text.to_vec()
-    }
-
     fn read(&self, bytes: &[u8]) -> Read {
         let mesh = msh::parse(bytes, "mesh.msh")?;
         quality::check(&mesh, Path::new("mesh.msh"))?;
@@ -172,16 +157,6 @@ impl Reader for Abaqus {
 
     fn has_checksums(&self) -> bool {
         false
-    }
-
-    fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool) {
-        let mut file = self.corpus[number].clone();
-        mutate::bytes(random, &mut file, &self.corpus);
-        (file, false)
-    }
-
-    fn fault(&self, text: &[u8]) -> Vec<u8> {
-        text.to_vec()
     }
 
     fn read(&self, bytes: &[u8]) -> Read {
@@ -412,16 +387,6 @@ impl Reader for Histories {
         &self.corpus
     }
 
-    fn mutate(&self, random: &mut Random, number: usize) -> (Vec<u8>, bool) {
-        let mut file = self.corpus[number].clone();
-        mutate::bytes(random, &mut file, &self.corpus);
-        (file, false)
-    }
-
-    fn fault(&self, text: &[u8]) -> Vec<u8> {
-        text.to_vec()
-    }
-
     fn read(&self, bytes: &[u8]) -> Read {
         let read = self.go_on(bytes, self.mark);
         if read.is_err() {
@@ -452,7 +417,7 @@ impl Checkpoints {
         for (number, ready) in scenes.iter().enumerate() {
             for state in &ready.states {
                 // The scene goes along in a text, for the reader to find it.
-                let mut store = checkpoint::put(Kept::store(), state);
+                let mut store = checkpoint::put(Kept::store(), state).unwrap();
                 store.put_text("scene", ready.name);
                 new.kept().save(1, store).unwrap();
                 corpus.push(fs::read(new.path()).unwrap());

@@ -1,7 +1,7 @@
 //! Small scenes, made without Gmsh, that together use what a checkpoint can hold, and the states of runs in them.
 
 use mpm::case::names::{Groups, Of};
-use mpm::case::{Case, Keys, Loaded, parts, scene, seeded, seeding};
+use mpm::case::{Case, Loaded, parts, scene, seeded, seeding};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
@@ -144,7 +144,7 @@ fn loaded(text: &str) -> Loaded {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("scene.geo"), "").unwrap();
     fs::write(folder.path().join("case.yaml"), text).unwrap();
-    Keys::default().load(folder.path(), &[]).unwrap_or_else(|e| panic!("{e:?}"))
+    mpm::case::load(folder.path(), &[]).unwrap_or_else(|e| panic!("{e:?}"))
 }
 
 /// Fills a mesh of the corpus with points and does a step.

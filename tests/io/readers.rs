@@ -215,7 +215,6 @@ fn points_vtu_is_viewable_as_it_is() {
         internal: Vec::new(),
         pressure: Vec::new(),
         pore_pressure: Vec::new(),
-        fields: Vec::new(),
         domain: Vec::new(),
         strength: numbers(n, 13),
         region: (0..n).map(|i| (i % 2) as u16).collect(),

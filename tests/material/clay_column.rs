@@ -70,11 +70,10 @@ fn confined(model: &dyn Model, depth: f64, path: impl Iterator<Item = f64>) -> V
     let mut elastic = model.elastic_strain(y, &[-K0 * WEIGHT * depth, -WEIGHT * depth, -K0 * WEIGHT * depth]);
     let (mut strain, mut before) = (0.0, [0.0]);
     let step = |stress: f64| {
-        let clay = model.principal().unwrap();
         let respond = |by: f64| {
             let mut internal = before;
             let trial = [elastic[0], elastic[1] + by, elastic[2]];
-            (clay.respond(y, &trial, &State::default(), &mut internal), internal)
+            (model.respond(y, &trial, &State::default(), &mut internal), internal)
         };
         let (mut low, mut high) = (-0.2, 0.2);
         for _ in 0..50 {

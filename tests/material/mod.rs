@@ -1,6 +1,5 @@
 //! Material models: what each must satisfy as a point, and what soil made of it does in a run.
 
-mod back_stress;
 mod cavitation;
 mod changes;
 mod clay_column;

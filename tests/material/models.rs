@@ -91,7 +91,7 @@ const STATES: usize = 100_000;
 #[test]
 fn returned_states_are_admissible() {
     for (name, model) in models() {
-        let law = model.principal().unwrap();
+        let law = model.as_ref();
         let mut random = Random(0x9E37_79B9_7F4A_7C15);
         let strength = finite_strength(&*model);
         for _ in 0..STATES {
@@ -134,8 +134,7 @@ fn responses_are_isotropic() {
     const ORDERS: [[usize; 3]; 5] = [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
     for (name, model) in models() {
         let mut random = Random(0xA076_1D64_78BD_642F);
-        let respond =
-            |trial: &[f64; 3]| model.principal().unwrap().respond(0.0, trial, &State::default(), &mut first(&*model));
+        let respond = |trial: &[f64; 3]| model.respond(0.0, trial, &State::default(), &mut first(&*model));
         let mut asymmetric = false;
         for _ in 0..STATES / 10 {
             let trial: [f64; 3] = random.trial(&*model);
@@ -171,7 +170,7 @@ fn responses_are_isotropic() {
 #[test]
 fn extreme_strains_are_survived() {
     for (name, model) in models() {
-        let law = model.principal().unwrap();
+        let law = model.as_ref();
         let rest = law.respond(0.0, &[0.0; 3], &State::default(), &mut first(&*model));
         assert_eq!(rest.stress, [0.0; 3], "{name}");
         assert!(!rest.yielding, "{name}");
@@ -257,7 +256,7 @@ fn missing_parameters_are_named() {
 fn the_shear_strength_yields_in_simple_shear() {
     let mut seen = 0;
     for (name, model) in models().iter().filter(|(name, model)| model.yields() && !name.starts_with("mohr_coulomb")) {
-        let law = model.principal().unwrap();
+        let law = model.as_ref();
         for internal in [0.0, 0.02, 0.5] {
             let state = State { internal: &[internal], ..State::default() };
             let strength = model.shear_strength(0.0, &state);
@@ -279,7 +278,7 @@ fn the_strength_of_a_state_is_that_of_the_model_times_a_factor() {
         let mut random = Random(0x2545_F491_4F6C_DD1D);
         for factor in [0.3, 0.8, 1.7] {
             let (other, state) = (model.reduced(1.0 / factor), State { strength: factor, ..State::default() });
-            let [law, other_law] = [model, &other].map(|model| model.principal().unwrap());
+            let [law, other_law] = [model, &other];
             let [own, expected] = [model.shear_strength(0.0, &state), other.shear_strength(0.0, &State::default())];
             assert!(own == expected || (own / expected - 1.0).abs() < 1e-14, "{name}: {own} {expected}");
             for _ in 0..2000 {
@@ -311,7 +310,7 @@ mod slow {
     fn tangents_are_the_derivative_of_the_stress() {
         for (name, model) in models() {
             let mut random = Random(0xD1B5_4A32_D192_ED03);
-            let (law, state, before) = (model.principal().unwrap(), State::default(), first(&*model));
+            let (law, state, before) = (model.as_ref(), State::default(), first(&*model));
             let mut kinks = 0;
             for _ in 0..STATES {
                 let trial = random.trial(&*model);

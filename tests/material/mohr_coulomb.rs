@@ -2,7 +2,7 @@
 //! values of the verification table, strengths in closed form, and a projection onto all planes at once.
 
 use mpm::material::driver::{Control, drive};
-use mpm::material::{Elasticity, Friction, Model, MohrCoulomb, PrincipalModel, Profile, State, Tresca};
+use mpm::material::{Elasticity, Friction, Model, MohrCoulomb, Profile, State, Tresca};
 
 fn elasticity(young: f64, poisson: f64) -> Elasticity {
     Elasticity::new(Profile::constant(young), poisson).unwrap()

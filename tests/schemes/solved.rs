@@ -1,6 +1,7 @@
 //! Scenes on structured grids: uniform strain, the self-weight column, bodies that fly and turn, water, a run that is continued.
 
 use crate::analytical::self_weight_column::Column;
+use crate::mpm::patch::stretch_boundary;
 use crate::schemes::functions::{COMPOSITE, CPDI, CPDI2, CPGIMP, UGIMP};
 use crate::support::bench::{Bench, constant, run};
 use mpm::interpolation::{Basis, Mpm};
@@ -11,7 +12,7 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
 use mpm::seed::{RegionSeed, seed};
-use mpm::step::{Controller, Fixed, Prescribed, Restore, Simulation, State};
+use mpm::step::{Controller, Restore, Simulation, State};
 use mpm::term::{Porous, WaterStiffness};
 use mpm::time_value::TimeValue;
 use std::f64::consts::TAU;
@@ -51,17 +52,7 @@ fn patch_error<K: Kinematics<2>>(
     }
     let mut bench = bench(mesh, 1000.0, 0.3);
     (bench.restore, bench.scheme, bench.steps) = (Restore::EveryStep, scheme, steps);
-    let mut boundary: Vec<u32> = bench.mesh.groups.iter().flat_map(|g| g.nodes.clone()).collect();
-    boundary.sort_unstable();
-    boundary.dedup();
-    for n in boundary {
-        let x = bench.mesh.nodes[n as usize];
-        for component in 0..2 {
-            let u = gradient[component][0] * x[0] + gradient[component][1] * x[1];
-            let fixed = Fixed { nodes: vec![n], component };
-            bench.prescribed.push(Prescribed { fixed, displacement: TimeValue::Rate(u) });
-        }
-    }
+    stretch_boundary(&mut bench, gradient);
     let points = seeded::<K>(&bench.mesh, count, 1.0, |_| true);
     let scene = bench.scene::<K>();
     let state = run::<K>(&scene, points, |_, _| {});

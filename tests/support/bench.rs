@@ -1,5 +1,6 @@
 //! Small scenes on structured meshes, built without a case file.
 
+use crate::support::layout::add_point;
 use mpm::case::parts::places;
 use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::Kinematics;
@@ -14,7 +15,6 @@ use mpm::step::{
     Controller, Fem, Fixed, Numerics, Phase, Prescribed, Report, Restore, Scene, Simulation, State, StepSize, Stop,
     Water,
 };
-use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::{
     BodyForce, EmptyCells, Inertia, Internal, MixedPressure, PoreStabilisation, PoreWater, Porous, PressureField,
     SmoothPressure, Term,
@@ -33,16 +33,7 @@ pub fn quadrature_points<K: Kinematics<2>>(mesh: &Mesh<2>, degree: usize, densit
             let det = map(mesh.cells.kind[c], &x, &xi, &mut n, &mut g);
             let place: [f64; 2] = std::array::from_fn(|d| x.iter().zip(&n).map(|(x, n)| x[d] * n).sum());
             let volume = weight * det * K::measure(&place);
-            points.position.push(place);
-            points.origin.push(place);
-            points.mass.push(density * volume);
-            points.initial_volume.push(volume);
-            points.deformation.push(Tensor::identity());
-            points.elastic.push(IDENTITY);
-            points.stress.push([0.0; 6]);
-            points.plastic_strain.push(0.0);
-            points.region.push(0);
-            points.cell.push(c as u32);
+            add_point(&mut points, place, [density * volume, volume], c as u32);
         }
     }
     points
@@ -232,7 +223,6 @@ impl Bench {
             pressure_unit: unit,
             carried: Vec::new(),
             water,
-            fields: Vec::new(),
             supports: self.supports,
             traced: Vec::new(),
             phases: vec![Phase {

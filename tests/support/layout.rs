@@ -41,6 +41,20 @@ pub fn straighten(mesh: &mut Mesh<2>) {
     }
 }
 
+/// Adds a point of undeformed material without stress, with a mass (t) and a volume (m³), in a cell.
+pub fn add_point(points: &mut Points<2>, x: [f64; 2], [mass, volume]: [f64; 2], cell: u32) {
+    points.position.push(x);
+    points.origin.push(x);
+    points.mass.push(mass);
+    points.initial_volume.push(volume);
+    points.deformation.push(Tensor::identity());
+    points.elastic.push(IDENTITY);
+    points.stress.push([0.0; 6]);
+    points.plastic_strain.push(0.0);
+    points.region.push(0);
+    points.cell.push(cell);
+}
+
 /// Points at rest at the places (m) with the areas (m²), as far as they lie on the mesh.
 pub fn at<K: Kinematics<2>>(mesh: &Mesh<2>, places: &[([f64; 2], f64)], density: f64) -> Points<2> {
     let locator = Locator::new(mesh);
@@ -48,16 +62,7 @@ pub fn at<K: Kinematics<2>>(mesh: &Mesh<2>, places: &[([f64; 2], f64)], density:
     for (place, area) in places {
         let Some((cell, _)) = locator.locate(mesh, place, None) else { continue };
         let volume = area * K::measure(place);
-        points.position.push(*place);
-        points.origin.push(*place);
-        points.mass.push(density * volume);
-        points.initial_volume.push(volume);
-        points.deformation.push(Tensor::identity());
-        points.elastic.push(IDENTITY);
-        points.stress.push([0.0; 6]);
-        points.plastic_strain.push(0.0);
-        points.region.push(0);
-        points.cell.push(cell);
+        add_point(&mut points, *place, [density * volume, volume], cell);
     }
     points
 }

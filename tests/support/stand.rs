@@ -1,6 +1,7 @@
 //! A test stand: one term on a small grid, with trial states of any size.
 
 use crate::support::Random;
+use crate::support::layout::add_point;
 use mpm::dofs::Dof;
 use mpm::error::Result;
 use mpm::interpolation::{Basis, Mpm};
@@ -15,7 +16,7 @@ use mpm::points::Points;
 use mpm::quadrature::Volumes;
 use mpm::step::{Grid, Numerics, Phase, Restore, Scene, Simulation, State, StepSize, Stop, Water};
 use mpm::system::{Matrix, Workspace};
-use mpm::tensor::{IDENTITY, Tensor, full, symmetric};
+use mpm::tensor::{Tensor, full, symmetric};
 use mpm::term::{Assembly, Frame, Frozen, GhostFace, Term, Trial};
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -64,16 +65,8 @@ pub fn points(mesh: &Mesh<2>, filled: impl Fn(usize) -> bool) -> Points<2> {
                     *x += n * y;
                 }
             }
-            points.position.push(x);
-            points.origin.push(x);
-            points.mass.push(0.3 + 0.1 * random.next());
-            points.initial_volume.push(0.1 + 0.05 * random.next());
-            points.deformation.push(Tensor::identity());
-            points.elastic.push(IDENTITY);
-            points.stress.push([0.0; 6]);
-            points.plastic_strain.push(0.0);
-            points.region.push(0);
-            points.cell.push(c as u32);
+            let (mass, volume) = (0.3 + 0.1 * random.next(), 0.1 + 0.05 * random.next());
+            add_point(&mut points, x, [mass, volume], c as u32);
         }
     }
     points
@@ -185,7 +178,6 @@ impl<K: Kinematics<2>> Stand<K> {
             pressure_unit,
             carried: Vec::new(),
             water,
-            fields: Vec::new(),
             supports: Vec::new(),
             traced: Vec::new(),
             phases: vec![phase.clone(), phase],

@@ -1,5 +1,6 @@
 //! The ghost penalty: what it leaves alone, and how stiff it is.
 
+use crate::support::layout::add_point;
 use crate::support::stand::{KINDS, Stand, elastic, resultant, size};
 use crate::terms::loads::{anywhere, stand};
 use mpm::error::Result;
@@ -10,7 +11,6 @@ use mpm::mesh::builder::rectangle;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
 use mpm::points::Points;
-use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::{Assembly, Frame, GhostInertia, GhostPenalty, Internal, Role, Term, Trial};
 use std::sync::Arc;
 
@@ -128,18 +128,7 @@ impl Term<2> for Sum {
 fn condition(over: f64, ghost: bool) -> f64 {
     let mesh = rectangle(CellKind::T6, 4.0, 4.0, 4, 4, 0.0, 0);
     let mut points = Points::default();
-    let mut add = |x: [f64; 2], volume: f64| {
-        points.position.push(x);
-        points.origin.push(x);
-        points.mass.push(volume);
-        points.initial_volume.push(volume);
-        points.deformation.push(Tensor::identity());
-        points.elastic.push(IDENTITY);
-        points.stress.push([0.0; 6]);
-        points.plastic_strain.push(0.0);
-        points.region.push(0);
-        points.cell.push(0);
-    };
+    let mut add = |x: [f64; 2], volume: f64| add_point(&mut points, x, [volume; 2], 0);
     let spacing = 0.2;
     for j in 0..20 {
         let y = (f64::from(j) + 0.5) * spacing;

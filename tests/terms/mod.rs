@@ -6,7 +6,6 @@
 mod contact;
 mod ghost;
 mod internal;
-mod keyed;
 mod loads;
 mod pressure;
 mod rigid;

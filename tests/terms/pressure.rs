@@ -1,6 +1,7 @@
 //! The pressure field: its tangent, its symmetry, and the inf-sup constant of its functions.
 
 use crate::support::Random;
+use crate::support::layout::add_point;
 use crate::support::stand::{KINDS, SMOOTHED, Stand, mesh, points};
 use mpm::interpolation::{Basis, Ddmp, Mpm};
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
@@ -8,7 +9,6 @@ use mpm::material::{CamClay, Elasticity, Friction, LinearElastic, Model, MohrCou
 use mpm::mesh::builder::rectangle;
 use mpm::mesh::shape::{CellKind, MAX_NODES, map, rule};
 use mpm::points::Points;
-use mpm::tensor::{IDENTITY, Tensor};
 use mpm::term::{Internal, MixedPressure, PressureField, SmoothPressure, Term};
 use nalgebra::{DMatrix, SymmetricEigen};
 use std::sync::Arc;
@@ -206,17 +206,8 @@ fn lattice(mesh: &mpm::mesh::Mesh<2>) -> Points<2> {
         for (xi, weight) in rule(mesh.cells.kind[c], 4) {
             let volume = weight * map(mesh.cells.kind[c], &x, &xi, &mut n, &mut g);
             let place: [f64; 2] = std::array::from_fn(|d| x.iter().zip(&n).map(|(x, n)| x[d] * n).sum());
-            points.position.push(place);
-            points.origin.push(place);
-            points.mass.push(volume);
-            points.initial_volume.push(volume);
-            points.deformation.push(Tensor::identity());
-            points.elastic.push(IDENTITY);
-            points.stress.push([0.0; 6]);
-            points.plastic_strain.push(0.0);
+            add_point(&mut points, place, [volume; 2], c as u32);
             points.pressure.push(0.0);
-            points.region.push(0);
-            points.cell.push(c as u32);
         }
     }
     points

@@ -67,7 +67,7 @@ fn set(case: &Case, kind: CellKind, alpha_f: f64) -> Set {
     stand.aim(step, |p| {
         let equal = case.strain[0] == case.strain[1];
         let strain = if equal { case.strain } else { case.strain.map(|e| e + noise * random.next()) };
-        let response = case.model.principal().unwrap().respond(heights[p], &strain, &State::default(), &mut []);
+        let response = case.model.respond(heights[p], &strain, &State::default(), &mut []);
         assert_eq!(response.yielding, case.yields, "{}", case.name);
         left_cauchy_green(&strain, &random.rotation())
     });

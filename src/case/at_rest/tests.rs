@@ -1,5 +1,5 @@
 use super::*;
-use crate::case::{Keys, source::Source};
+use crate::case::{resolve, source::Source};
 use crate::mesh::builder::rectangle;
 use crate::mesh::shape::CellKind;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ fn case(entries: &str) -> Case {
          phases: [{{name: rest, analysis: quasi_static, duration: 1, step: {{initial: 1}}}}]\n"
     );
     let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-    let (case, issues) = Keys::default().resolve(&source);
+    let (case, issues) = resolve(&source);
     assert!(issues.is_empty(), "{issues:?}");
     case.unwrap()
 }

@@ -152,7 +152,7 @@ fn held_along(case: &Case, mesh: &Mesh<2>, name: &str, wall: &Group) -> Option<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
     use std::path::PathBuf;
@@ -171,7 +171,7 @@ mod tests {
              phases: [{{name: push, analysis: quasi_static, duration: 1, step: {{initial: 1}}, prescribe: {{footing: {{ux: 0, uy: {{rate: -{way}}}}}}}}}]\n"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         let mut mesh = rectangle(CellKind::T6, 4.0, 2.0, 8, 4, 0.0, 0);
         for c in 0..mesh.cells.len() {

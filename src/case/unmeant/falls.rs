@@ -104,7 +104,7 @@ fn gravity(case: &Case, phase: &Phase) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
     use std::path::PathBuf;
@@ -118,7 +118,7 @@ mod tests {
              {entries}\nphases: [{{name: fall, {phase}}}]\n"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         let mut mesh = rectangle(CellKind::Q9, 2.0, 1.5, 8, 6, 0.0, 0);
         mesh.regions = vec!["air".into(), "block".into()];
@@ -172,7 +172,7 @@ mod tests {
                 dynamic(1.0, 0.1)
             );
             let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-            let (case, issues) = Keys::default().resolve(&source);
+            let (case, issues) = resolve(&source);
             assert!(issues.is_empty(), "{issues:?}");
             // Clay up to 0.5 m, air above it, and a body 1 m higher than the clay.
             let mut mesh = rectangle(CellKind::Q9, 2.0, 2.0, 8, 8, 0.0, 0);

@@ -224,7 +224,7 @@ fn one<'a, T>(mut loads: impl Iterator<Item = &'a T>) -> Option<&'a T> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use crate::mesh::builder::rectangle;
     use crate::mesh::shape::CellKind;
     use std::path::PathBuf;
@@ -240,7 +240,7 @@ mod tests {
              materials: {{clay: {{model: linear_elastic, young: 1, poisson: 0, density: 1}}}}\n{entries}\nphases:\n{phases}"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         case.unwrap()
     }

@@ -2,7 +2,7 @@
 
 use crate::case::checked::{Analysis, Case, Content, Material};
 use crate::case::unconnected::Place;
-use crate::material::{State, yield_excess};
+use crate::material::{State, spectral};
 use crate::mesh::quality::SAME;
 
 /// Bisections for the least horizontal stress: to a millionth of the vertical one.
@@ -53,7 +53,7 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
 fn least_ratio(material: &Material, y: f64, vertical: f64) -> Option<f64> {
     let is_borne = |k: f64| {
         let stress = [k * vertical, vertical, k * vertical, 0.0, 0.0, 0.0];
-        yield_excess(material.model.as_ref(), y, &stress, &State::default()) <= 0.0
+        material.model.yield_excess(y, &spectral::roots(&stress), &State::default()) <= 0.0
     };
     let (mut low, mut high) = (0.0, 1.0);
     if is_borne(low) || !is_borne(high) {
@@ -82,7 +82,7 @@ fn soil<'a>(case: &'a Case, region: &str) -> Option<&'a Material> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use std::path::PathBuf;
 
     /// The warnings of ground 20 m wide in a model of a width (m).
@@ -92,7 +92,7 @@ mod tests {
              materials: {{sand: {{model: mohr_coulomb, young: 3.0e+4, unit_weight: 20, {sand}}}}}\ngravity: {{y: -9.81}}\n{entries}\n"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         assert!(issues.is_empty(), "{issues:?}");
         let place = |name: &str, bounds| Place { name: name.into(), bounds, parts: Vec::new() };
         let places = [place("soil", [[0.0, -10.0], [20.0, 0.0]]), place("air", [[0.0, 0.0], [width, 5.0]])];

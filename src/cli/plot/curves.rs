@@ -1,6 +1,6 @@
 //! Curves of the histories of runs.
 
-use crate::case::Keys;
+use crate::case;
 use crate::cli::print::{Outcome, note, print};
 use crate::draw::curves::{Charts, Mark, Series, Style};
 use crate::draw::history::{self, Run, Shown, TIME};
@@ -48,8 +48,8 @@ pub struct Args {
     pub list: bool,
 }
 
-pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bool, keys: &Keys) -> Outcome {
-    let found: Vec<Found> = cases.iter().map(|case| find(case, unfinished, keys)).collect::<Result<_>>()?;
+pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bool) -> Outcome {
+    let found: Vec<Found> = cases.iter().map(|case| find(case, unfinished)).collect::<Result<_>>()?;
     let mut runs = Vec::with_capacity(found.len());
     for (i, Found { run, title, path }) in found.iter().enumerate() {
         // A title that two runs have tells neither.
@@ -100,7 +100,7 @@ struct Found {
 }
 
 /// The run of a case, or that in an output folder.
-fn find(path: &Path, unfinished: bool, keys: &Keys) -> Result<Found> {
+fn find(path: &Path, unfinished: bool) -> Result<Found> {
     let is_case = path.is_file() || path.join("case.yaml").is_file();
     let folder = match (is_case, path.is_dir()) {
         (true, true) => path.join("out"),
@@ -123,7 +123,7 @@ fn find(path: &Path, unfinished: bool, keys: &Keys) -> Result<Found> {
         ));
     }
     // A case with mistakes may have results all the same; its folder names it then.
-    let title = is_case.then(|| keys.load(path, &[]).ok()).flatten().map(|loaded| loaded.case.title);
+    let title = is_case.then(|| case::load(path, &[]).ok()).flatten().map(|loaded| loaded.case.title);
     Ok(Found { run, title: title.filter(|title| !title.is_empty()), path: path.to_owned() })
 }
 

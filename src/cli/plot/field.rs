@@ -1,6 +1,6 @@
 //! Pictures of a field over the soil at one time or several.
 
-use crate::case::{Keys, parts};
+use crate::case::parts;
 use crate::cli::args::{CaseArgs, StageArgs};
 use crate::cli::print::{Outcome, note, print};
 use crate::cli::stage::Stage;
@@ -68,8 +68,8 @@ fn numbers<const N: usize>(text: &str) -> std::result::Result<[f64; N], String> 
 }
 
 /// Draws `field` of the case or output folder `case`.
-pub fn run(case: &Path, output: Option<&Path>, field: &str, args: &Args, keys: &Keys) -> Outcome {
-    let stage = open(case, keys)?;
+pub fn run(case: &Path, output: Option<&Path>, field: &str, args: &Args) -> Outcome {
+    let stage = open(case)?;
     stage.lock()?;
     let run = if args.unfinished { export::unfinished(&stage)? } else { export::shown(&stage)? };
     let mesh = mesh::read(&stage)?;
@@ -184,10 +184,10 @@ fn numbered(infos: &[Info], number: &str) -> Result<usize> {
 
 /// The case and output folder of a path, which may be either. The case of an output folder is that which it was solved from, with the
 /// same entries overridden.
-fn open(path: &Path, keys: &Keys) -> std::result::Result<Stage, Vec<Error>> {
+fn open(path: &Path) -> std::result::Result<Stage, Vec<Error>> {
     let of = |case: &Path, overrides: Vec<String>, output: Option<PathBuf>| {
         let args = StageArgs { case: CaseArgs { case: case.to_owned(), overrides }, output, threads: None };
-        Stage::open(&args, keys)
+        Stage::open(&args)
     };
     if path.is_file() || path.join("case.yaml").exists() {
         return of(path, Vec::new(), None);

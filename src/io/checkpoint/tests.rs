@@ -26,7 +26,6 @@ pub(in crate::io) fn sample_points(n: usize, dynamic: bool) -> Points<2> {
         internal: if dynamic { (0..2 * n).map(|i| x(i / 2, 35 + i % 2)).collect() } else { Vec::new() },
         pressure: if dynamic { (0..n).map(|i| x(i, 34)).collect() } else { Vec::new() },
         pore_pressure: if dynamic { (0..n).map(|i| x(i, 35)).collect() } else { Vec::new() },
-        fields: if dynamic { (0..2 * n).map(|i| x(i, 36)).collect() } else { Vec::new() },
         domain: if dynamic { (0..8 * n).map(|i| x(i / 8, 37 + i % 8)).collect() } else { Vec::new() },
         strength: if dynamic { (0..n).map(|i| x(i, 45)).collect() } else { Vec::new() },
         plastic_strain: (0..n).map(|i| if i % 3 == 0 { 5e-324 } else { x(i, 32) }).collect(),

@@ -24,7 +24,11 @@ fn near(what: &str, values: impl Iterator<Item = f64> + Clone, wanted: f64) {
 const LAGS: [[f64; 2]; 7] = [[0.5, 0.0], [2.0, 0.0], [8.0, 0.0], [0.0, 0.5], [0.0, 2.0], [4.0, 1.0], [-4.0, 1.0]];
 
 fn correlation_of(correlation: Correlation, lag: &[f64; 2]) -> f64 {
-    correlation.at((lag[0] / LENGTHS[0]).hypot(lag[1] / LENGTHS[1]))
+    let d = (lag[0] / LENGTHS[0]).hypot(lag[1] / LENGTHS[1]);
+    match correlation {
+        Correlation::Markov => (-2.0 * d).exp(),
+        Correlation::Gaussian => (-PI * d * d).exp(),
+    }
 }
 
 #[test]

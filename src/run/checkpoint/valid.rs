@@ -100,9 +100,7 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     let numbers = scene.basis.domain_size() * state.points.len();
     ensure(state.points.domain.len() == numbers && state.fem.domain.is_empty(), "the domains of its points")?;
     let [places, _] = scene.places();
-    let of_points = state.points.fields.len();
-    ensure(of_points == scene.fields.len() * state.points.len() && state.fem.fields.is_empty(), "its scalar fields")?;
-    let pressures = if scene.has_scalars() { places.end(scene.scalars().count()) } else { 0 };
+    let pressures = if scene.pressure_unit.is_some() { places.end(scene.water.is_some()) } else { 0 };
     ensure(state.pressure.len() == pressures, "its pressure field")
 }
 

@@ -20,7 +20,6 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         pressure_unit: None,
         carried: Vec::new(),
         water: None,
-        fields: Vec::new(),
         mesh,
         terms: Vec::new(),
         fem: None,

@@ -84,11 +84,11 @@ fn for_all<K: Kinematics<2>>(
             .extension
             .as_ref()
             .map_or(mesh.cells.nodes(cell_points.cell as usize), |r| r.nodes(cell_points.cell));
-        let rows: Vec<&[f64]> = interpolation.extension.iter().flat_map(|r| r.rows(cell_points.cell)).collect();
+        let rows = interpolation.extension.as_ref().map_or(&[][..], |r| r.rows(cell_points.cell));
         for entries in interpolation.entries::<K>(cell_points) {
             for (k, &node) in nodes.iter().enumerate() {
                 let mut g = if k < own { entries.gradient(k).g } else { [0.0; 2] };
-                for (i, row) in rows.iter().enumerate() {
+                for (i, row) in rows.chunks_exact(nodes.len()).enumerate() {
                     let function = entries.gradient(own + i).g;
                     (0..2).for_each(|d| g[d] += row[k] * function[d]);
                 }
