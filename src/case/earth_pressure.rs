@@ -92,7 +92,7 @@ impl Checker {
 #[cfg(test)]
 mod tests {
     use super::super::checked::Case;
-    use crate::case::{Keys, source::Source};
+    use crate::case::{resolve, source::Source};
     use std::path::PathBuf;
 
     /// What is made of a case whose `k0` is as given.
@@ -106,7 +106,7 @@ mod tests {
              phases: [{{name: rest, analysis: quasi_static, duration: 1, step: {{initial: 1}}}}]\n"
         );
         let source = Source::parse(PathBuf::from("case.yaml"), text, &[]).unwrap();
-        let (case, issues) = Keys::default().resolve(&source);
+        let (case, issues) = resolve(&source);
         case.filter(|_| issues.is_empty()).ok_or_else(|| issues.iter().map(|i| format!("{i:?}")).collect())
     }
 

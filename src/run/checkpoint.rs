@@ -221,12 +221,12 @@ fn pass_boundary(archive: &mut Archive, boundary: &ActiveBoundary) -> Result<Act
     if paths.len() != numbers.len() {
         return Err(unlike("boundary.paths"));
     }
-    let piece = |(paths, [cell, host, region, wall]): ([[[[f64; 2]; 2]; 2]; 2], [u32; 4])| {
+    let pieces = paths.into_iter().zip(numbers).map(|(paths, [cell, host, region, wall])| {
         let [path, in_host] = paths.map(|[ends, rates]| Path { ends, rates });
         let region = u16::try_from(region).map_err(|_| foreign("a region of its boundary"))?;
         Ok(Piece { cell, path, wall: wall != 0, region, host, in_host })
-    };
-    let pieces = paths.into_iter().zip(numbers).map(piece).collect::<Result<_>>()?;
+    });
+    let pieces = pieces.collect::<Result<_>>()?;
     Ok(ActiveBoundary { pieces, first: archive.list("boundary.first", &boundary.first)? })
 }
 
