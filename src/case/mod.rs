@@ -14,6 +14,7 @@ mod controls;
 mod drained_surface;
 mod drains;
 mod earth_pressure;
+mod equilibrium;
 mod find;
 mod incompressible;
 pub mod issue;

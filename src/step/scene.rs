@@ -40,6 +40,8 @@ pub struct Scene<const D: usize> {
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,
+    /// Time (s) at which the run begins: 0, or less where its first phase comes before those of the user.
+    pub begins: f64,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.
     pub traced: Vec<u32>,
     pub numerics: Numerics,

@@ -12,6 +12,7 @@ mod ddmp;
 mod driven;
 mod elements;
 mod ending;
+mod equilibrium;
 mod energy;
 mod everyday;
 mod footings;
