@@ -111,8 +111,14 @@ pub fn met<const D: usize>(
     let (share, most) = (100.0 * held, state.ramp.most());
     let next = if scene.phases.len() > state.phase + 1 { ", and comes on in the next" } else { "" };
     Some(format!(
-        "{note}; {share:.1} % of what was out of balance as it began, up to {most:.3e} kN at a node, is not released{next}"
+        "{note}; {share:.1} % of what was out of balance {}, up to {most:.3e} kN at a node, is not released{next}",
+        since(state)
     ))
+}
+
+/// When what is held came out of balance.
+fn since<const D: usize>(state: &State<D>) -> &'static str {
+    if state.ramp.from > 0.0 { "on a reset grid" } else { "as the phase began" }
 }
 
 /// Whether a step that failed hands over to dynamics.
@@ -232,7 +238,7 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     let reduction = phase.reduction.iter().filter(|value| varies(value));
     let reduction = reduction.map(|value| format!("strengths divided by {:.4} of {:.4}", value.at(now), value.at(end)));
     let held = state.ramp.share(now);
-    let released = (held > 0.0 && now > 0.0)
-        .then(|| format!("{:.1} % of what was out of balance as the phase began", 100.0 * (1.0 - held)));
+    let released = (held > 0.0 && now > state.ramp.from)
+        .then(|| format!("{:.1} % of what was out of balance {}", 100.0 * (1.0 - held), since(state)));
     factors.chain(moved).chain(reduction).chain(released).collect()
 }
