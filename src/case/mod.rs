@@ -29,6 +29,7 @@ pub mod parts;
 mod phases;
 mod pores;
 pub mod raw;
+mod removed;
 mod rigid;
 pub mod scene;
 pub mod scheme;

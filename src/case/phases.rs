@@ -26,7 +26,8 @@ impl Checker {
             let absent = self.absent(phase, checked.last(), file, &path);
             let changes = self.changes(phase, i == 0, file, &mut materials, &path);
             let contacts = self.contact_changes(phase, file, &mut laws, &path);
-            checked.push(Phase { absent, changes, contacts, ..self.phase(phase, file, numerics, &path) });
+            let removed = self.removed(phase, &checked, (file, numerics), &path);
+            checked.push(Phase { absent, removed, changes, contacts, ..self.phase(phase, file, numerics, &path) });
         }
         checked
     }
@@ -76,6 +77,7 @@ impl Checker {
             gravity,
             reduction: self.reduction(phase, file, path),
             absent: Vec::new(),
+            removed: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
             reset_displacements: phase.reset_displacements,
@@ -133,7 +135,10 @@ impl Checker {
         let mut absent = before.map_or_else(Vec::new, |before| before.absent.clone());
         for (i, name) in phase.deactivate.iter().enumerate() {
             let path = path.key("deactivate").index(i);
-            if !known.contains(&name.as_str()) {
+            if file.regions.get(name).is_some_and(|region| region.kind == raw::RegionKind::Mpm) {
+                let remedy = format!("dig it out with `remove: [{name}]`");
+                self.issue(&path, At::Value, format!("`{name}` is soil of material points"), remedy);
+            } else if !known.contains(&name.as_str()) {
                 let problem = format!("there is no structure, wall or contact `{name}`");
                 self.issue(&path, At::Value, problem, suggest(name, known.iter().copied()));
             } else if absent.contains(name) {

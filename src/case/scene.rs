@@ -8,8 +8,8 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    changes, contact_interfaces, controls, drained_surface, layout, outputs, parts, pores, scheme, search, seeded,
-    staged, unconnected, unmeant, wall, water,
+    changes, contact_interfaces, controls, drained_surface, layout, outputs, parts, pores, removed, scheme, search,
+    seeded, staged, unconnected, unmeant, wall, water,
 };
 use crate::error::Result;
 use crate::io::phase_state::End;
@@ -267,6 +267,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
+    let removals = (0..case.phases.len()).map(|number| removed::of_phase(case, &mesh, number)).collect();
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let scene = Scene {
         locator,
@@ -282,6 +283,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         water,
         supports,
         phases,
+        removals,
         traced,
         basis,
         numerics: case.numerics.solver.clone(),

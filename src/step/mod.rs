@@ -36,6 +36,7 @@ mod pressure;
 mod problem;
 mod ramp;
 mod relax;
+mod removal;
 mod report;
 mod restore;
 mod rigid;
@@ -59,6 +60,7 @@ pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
+pub use removal::Removal;
 pub use report::Report;
 pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, StepSize, Stop, Water};
 pub use search::kink;
@@ -115,12 +117,17 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(Self { scene, state, grid, kinematics: PhantomData })
     }
 
-    /// Notes on the phase that begins: materials that change in it, prescribed displacements and loads that act on no material.
+    /// Begins a phase: removes the soil that goes. Returns notes on it: materials that change in it, prescribed displacements and loads that act on no
+    /// material.
     ///
     /// # Errors
     /// When memory does not suffice, and where a structure comes back into soil.
-    pub fn notes(&mut self) -> Result<Vec<String>> {
+    pub fn begin_phase(&mut self) -> Result<Vec<String>> {
         let Some(phase) = self.scene.phases.get(self.state.phase) else { return Ok(Vec::new()) };
+        if removal::remove::<D, K>(self.scene, &mut self.grid, &mut self.state)? {
+            self.initialise(false)?;
+            removal::hold(self.scene, &mut self.grid, &mut self.state)?;
+        }
         overlap::on_return(self.scene, &self.state)?;
         if self.scene.terms.iter().any(|term| term.sees_open_boundary()) {
             match contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state) {

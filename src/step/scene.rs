@@ -1,6 +1,7 @@
 //! A scene: everything that does not change while it is solved.
 
 use super::change::Change;
+use super::removal::Removal;
 use crate::contact::Interface;
 use crate::dofs::{Places, RigidDofs};
 use crate::interpolation::Basis;
@@ -40,6 +41,8 @@ pub struct Scene<const D: usize> {
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,
+    /// The soil that each phase removes as it begins.
+    pub removals: Vec<Option<Removal<D>>>,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.
     pub traced: Vec<u32>,
     pub numerics: Numerics,

@@ -14,6 +14,7 @@ mod elements;
 mod ending;
 mod energy;
 mod everyday;
+mod excavation;
 mod footings;
 mod ghost;
 mod incompressible;

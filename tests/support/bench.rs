@@ -225,6 +225,7 @@ impl Bench {
             water,
             supports: self.supports,
             traced: Vec::new(),
+            removals: Vec::new(),
             phases: vec![Phase {
                 name: "test".into(),
                 dynamic: self.dynamic,

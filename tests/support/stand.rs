@@ -181,6 +181,7 @@ impl<K: Kinematics<2>> Stand<K> {
             supports: Vec::new(),
             traced: Vec::new(),
             phases: vec![phase.clone(), phase],
+            removals: Vec::new(),
             basis: scheme,
             numerics: Numerics {
                 restore: if restored { Restore::EveryStep } else { Restore::Never },

@@ -21,6 +21,8 @@ pub struct Phase {
     pub reduction: Option<TimeValue>,
     /// Structures, walls and contacts that are not there in the phase.
     pub absent: Vec<String>,
+    /// Regions of soil that are removed as it begins.
+    pub removed: Vec<String>,
     /// The materials that regions take as it begins.
     pub changes: Vec<Change>,
     /// The laws that contacts take as it begins.

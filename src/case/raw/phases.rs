@@ -38,6 +38,10 @@ pub struct Phase {
     /// Structures, walls and contacts, by name, that come back as the phase begins.
     #[serde(default)]
     pub activate: Vec<String>,
+    /// Regions of kind mpm that are dug out as the phase begins. In phases without inertia the forces that their soil bore are taken off evenly
+    /// until the end of the phase.
+    #[serde(default)]
+    pub remove: Vec<String>,
     /// The materials that regions take as the phase begins, by the names of the regions. Stress is kept.
     #[serde(default)]
     pub materials: BTreeMap<String, String>,
