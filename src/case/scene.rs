@@ -8,10 +8,11 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    changes, contact_interfaces, controls, drained_surface, layout, outputs, parts, pores, scheme, search, seeded,
-    staged, unconnected, unmeant, wall, water,
+    changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, pores, scheme, search,
+    seeded, staged, unconnected, unmeant, wall, water,
 };
 use crate::error::Result;
+use crate::gravity::Gravity;
 use crate::io::phase_state::End;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
@@ -24,7 +25,7 @@ use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
 use crate::step::{Fem, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
     BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
-    PressureField, SmoothPressure, Term, Traction,
+    PressureField, SmoothPressure, Term,
 };
 use crate::time_value::TimeValue;
 use std::sync::atomic::AtomicBool;
@@ -217,14 +218,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         terms.push(Box::new(Inertia::<K>::default()));
     }
     terms.extend(water::terms::<K>(case, &mesh, size)?);
-    for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
-        if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
-            continue;
-        }
-        let place = || format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name);
-        let group = parts::material_curve(case, (&mesh, fem.as_ref()), &traction.curve, place)?;
-        terms.push(Box::new(Traction::<K, 2>::new(&mesh, group, phase, traction.components.clone())));
-    }
+    let [on_grid, on_elements] = curve_loads::terms::<K>(case, (&mesh, fem.as_ref()), &bodies[..structures])?;
+    terms.extend(on_grid);
 
     let fem = match fem {
         Some(part) => {
@@ -238,6 +233,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
                 terms.push(Box::new(Inertia::<K>::default()));
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
+            terms.extend(on_elements);
             terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size)?);
             let carried = changes::ever(case, &part, |m| m.carried.is_some())?;
             let rigid = regions(case, &part, Content::is_rigid);
@@ -286,6 +282,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         basis,
         numerics: case.numerics.solver.clone(),
         gravity: case.gravity,
+        strongest_gravity: strongest_gravity(case),
         stiffness_scale,
         density_scale,
     };
@@ -323,7 +320,14 @@ fn internal<K: Kinematics<2>>(
 }
 
 fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
-    BodyForce::new(case.gravity, case.phases.iter().map(|p| p.gravity.clone()).collect())
+    BodyForce::new(case.phases.iter().map(|p| p.gravity.clone()).collect())
+}
+
+/// The largest acceleration of gravity (m/s²): that of the case, or of a phase with components of its own.
+fn strongest_gravity(case: &Case) -> f64 {
+    let own = case.phases.iter().filter(|phase| matches!(phase.gravity, Gravity::Components(_)));
+    let accelerations = own.flat_map(|phase| phase.gravity.extremes(phase.duration)).chain([case.gravity]);
+    accelerations.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max)
 }
 
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Quadrature<2>>> {
@@ -361,9 +365,9 @@ fn phase(
     let loads: Vec<&TimeValue> = phase
         .tractions
         .iter()
-        .flat_map(|t| &t.components)
+        .flat_map(|t| t.values())
         .chain(water::values(case, number, phase))
-        .chain(std::iter::once(&phase.gravity))
+        .chain(phase.gravity.values())
         .chain(&phase.reduction)
         .collect();
     let values = phase.prescribed.iter().map(|p| &p.displacement).chain(loads.iter().copied());

@@ -169,7 +169,8 @@ impl<const D: usize> Grid<D> {
             }));
             Scalars::new(&families, node.len(), &connectivity, places.end(with_water))
         });
-        let symmetric = scene.basis.is_symmetric() && scene.terms.iter().all(|t| t.symmetric());
+        let of_elements = scene.fem.iter().flat_map(|fem| &fem.terms);
+        let symmetric = scene.basis.is_symmetric() && scene.terms.iter().chain(of_elements).all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, pressure) = match with_pressure {
             None => (System::new(&sizes, connectivity, symmetric, &coordinates)?, Vec::new()),

@@ -45,6 +45,8 @@ pub struct Scene<const D: usize> {
     pub numerics: Numerics,
     /// Acceleration of gravity (m/s²), for the energies in the log.
     pub gravity: [f64; D],
+    /// The largest (m/s²) that a phase has.
+    pub strongest_gravity: f64,
     /// Largest confined modulus λ + 2G (kPa) and density (t/m³) of the scene: rounding is measured by the
     /// first, the spread of the motion over empty nodes by the second.
     pub stiffness_scale: f64,

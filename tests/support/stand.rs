@@ -190,6 +190,7 @@ impl<K: Kinematics<2>> Stand<K> {
                 max_iterations: 25,
             },
             gravity: [0.0; 2],
+            strongest_gravity: 0.0,
             stiffness_scale: 1.0,
             density_scale: 1.0,
         };

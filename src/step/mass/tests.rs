@@ -55,6 +55,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             max_iterations: 25,
         },
         gravity: [0.0; 2],
+        strongest_gravity: 0.0,
         stiffness_scale: 1.0,
         density_scale: 2.0,
     }
