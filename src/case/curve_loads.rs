@@ -1,6 +1,6 @@
-//! The terms of loads on curves: dead tractions, and pressures that follow their curve.
+//! The terms of loads on curves, dead tractions and pressures that follow their curve, and of forces at points.
 
-use super::checked::{Case, Traction as Load};
+use super::checked::{Case, Restore, Traction as Load};
 use super::find::{group, regions};
 use super::parts;
 use super::rigid::body_of;
@@ -11,7 +11,7 @@ use crate::mesh::{Group, Mesh};
 use crate::rigid::Body;
 use crate::term::{FacetPressure, Hydrostatic, RigidPressure, RigidTraction, Term, Traction};
 use crate::time_value::TimeValue;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 type Terms = Vec<Box<dyn Term<2>>>;
 
@@ -34,11 +34,16 @@ pub fn terms<K: Kinematics<2>>(
 ) -> Result<[Terms; 2]> {
     let [mut on_grid, mut on_elements] = [Terms::new(), Terms::new()];
     for (phase, load) in all(case).filter(|(_, load)| !rigid.iter().any(|body| body_of(mesh, body, &load.curve))) {
-        let place = || format!("the traction on `{}` in phase `{}`", load.curve, case.phases[phase].name);
-        let curve = parts::material_curve(case, (mesh, fem), &load.curve, place)?;
+        let place = || format!("the load on `{}` in phase `{}`", load.curve, case.phases[phase].name);
+        let curve = match load.force {
+            Some(_) => group(mesh, &load.curve)?,
+            None => parts::material_curve(case, (mesh, fem), &load.curve, place)?,
+        };
+        if load.force.is_some() {
+            check_point(case, (mesh, fem), curve, place)?;
+        }
         check_order(load, curve, place)?;
-        for (datum, value) in dead(load) {
-            let shares = Traction::<K, 2>::shares(mesh, curve, datum);
+        for (shares, value) in dead::<K>(load, mesh, curve) {
             on_grid.push(Box::new(Traction::<K, 2>::of_shares(shares, phase, value)));
         }
         let Some(pressure) = &load.pressure else { continue };
@@ -62,8 +67,7 @@ pub fn on_rigid<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, (body, number): (
     let mut terms = Terms::new();
     for (phase, load) in all(case).filter(|(_, load)| body_of(mesh, body, &load.curve)) {
         let curve = group(mesh, &load.curve)?;
-        for (datum, value) in dead(load) {
-            let shares = Traction::<K, 2>::shares(mesh, curve, datum);
+        for (shares, value) in dead::<K>(load, mesh, curve) {
             terms.push(Box::new(RigidTraction::new(body, &mesh.nodes, &shares, phase, value)));
         }
         if let Some(pressure) = &load.pressure {
@@ -78,8 +82,11 @@ pub fn on_rigid<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, (body, number): (
     Ok(terms)
 }
 
-/// The dead parts of a load: a traction in time, uniform or, with a datum (m), by the depth below it.
-fn dead(load: &Load) -> Vec<(Option<f64>, [TimeValue; 2])> {
+/// The dead parts of a load on a curve or at the nodes of a point: the shares of the nodes, and a value in time of which these have so much.
+fn dead<K: Kinematics<2>>(load: &Load, mesh: &Mesh<2>, curve: &Group) -> Vec<(Vec<(u32, f64)>, [TimeValue; 2])> {
+    if let Some(force) = &load.force {
+        return vec![(curve.nodes.iter().map(|&n| (n, 1.0)).collect(), force.clone())];
+    }
     let none = || TimeValue::Constant(0.0);
     let [x, y] = &load.components;
     let mut parts = vec![
@@ -88,7 +95,35 @@ fn dead(load: &Load) -> Vec<(Option<f64>, [TimeValue; 2])> {
         (Some(y.datum), [none(), y.gradient.clone()]),
     ];
     parts.retain(|(_, value)| value.iter().any(|value| !value.is_zero()));
-    parts
+    parts.into_iter().map(|(datum, value)| (Traction::<K, 2>::shares(mesh, curve, datum), value)).collect()
+}
+
+/// The nodes of the grid at whose soil forces act, where the grid is reset.
+pub fn loaded_nodes(case: &Case, mesh: &Mesh<2>, fem: Option<&Mesh<2>>) -> BTreeSet<u32> {
+    if case.numerics.solver.restore == Restore::Never {
+        return BTreeSet::new();
+    }
+    let of_elements: HashSet<u32> = fem.iter().flat_map(|fem| &fem.cells.nodes).copied().collect();
+    let points = all(case).filter(|(_, load)| load.force.is_some()).filter_map(|(_, load)| mesh.group(&load.curve));
+    points.flat_map(|point| point.nodes.iter().copied()).filter(|n| !of_elements.contains(n)).collect()
+}
+
+/// Refuses a force at a point of the grid that is in no soil.
+fn check_point(
+    case: &Case,
+    (mesh, fem): (&Mesh<2>, Option<&Mesh<2>>),
+    point: &Group,
+    place: impl Fn() -> String,
+) -> Result<()> {
+    let filled = regions(case, mesh, |content| content.material().is_some());
+    let soil = (0..mesh.cells.len()).filter(|&c| filled[usize::from(mesh.cells.region[c])]);
+    let mut of: HashSet<u32> = soil.flat_map(|c| mesh.cells.nodes(c)).copied().collect();
+    of.extend(fem.iter().flat_map(|fem| &fem.cells.nodes));
+    if point.nodes.iter().all(|n| of.contains(n)) {
+        return Ok(());
+    }
+    let remedy = "take a point of soil or of a structure";
+    Err(Error::input(place(), "there is no soil and no structure at the point", remedy))
 }
 
 /// A pressure in one phase.

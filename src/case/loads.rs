@@ -50,14 +50,18 @@ impl Checker {
         numerics: &Numerics,
         path: &Path,
     ) -> Traction {
+        let at_point = traction.fx.is_some() || traction.fy.is_some();
         let of_elements = |kind| matches!(kind, raw::RegionKind::Fem | raw::RegionKind::Structure);
         let with_elements = file.regions.values().any(|region| of_elements(region.kind));
         // Whether the curve is one of finite elements, only the mesh can tell.
-        if numerics.solver.restore != Restore::Never && !with_elements {
-            let problem = "a traction on a curve needs finite elements, or a grid that moves with the material";
+        if numerics.solver.restore != Restore::Never && !with_elements && !at_point {
+            let problem = "a load on a curve needs finite elements, or a grid that moves with the material";
             let remedy = "load the `surface` of the soil in place of a curve, set `restore: never` under `numerics`, \
                 or make the region beside it `kind: fem`";
             self.issue(&path.key("on"), At::Value, problem, remedy);
+        }
+        if at_point {
+            return self.point_load(curve, traction, path);
         }
         let of_surfaces = [("shear", traction.shear.is_some()), ("where", traction.within.is_some())];
         for (key, _) in of_surfaces.iter().filter(|(_, there)| *there) {
@@ -65,7 +69,8 @@ impl Checker {
             self.issue(&path.key(key), At::Key, "a load on a curve does not have this", remedy);
         }
         if traction.tx.is_none() && traction.ty.is_none() && traction.pressure.is_none() {
-            self.issue(path, At::Value, "there is no load", "add `pressure: …`, `tx: …` or `ty: …`");
+            let remedy = "add `pressure: …`, `tx: …` or `ty: …` on a curve, `fx: …` or `fy: …` at a point";
+            self.issue(path, At::Value, "there is no load", remedy);
         }
         let factor = self.factor(traction, path);
         let components = [("tx", &traction.tx), ("ty", &traction.ty)].map(|(key, load)| match load {
@@ -74,7 +79,27 @@ impl Checker {
         });
         let pressure = traction.pressure.as_ref();
         let pressure = pressure.map(|load| self.load_profile(load, &factor, true, &path.key("pressure")));
-        Traction { curve: curve.to_owned(), components, pressure }
+        Traction { curve: curve.to_owned(), force: None, components, pressure }
+    }
+
+    /// A force at a point.
+    fn point_load(&mut self, point: &str, traction: &raw::Traction, path: &Path) -> Traction {
+        let others = [
+            ("tx", traction.tx.is_some()),
+            ("ty", traction.ty.is_some()),
+            ("pressure", traction.pressure.is_some()),
+            ("shear", traction.shear.is_some()),
+            ("factor", traction.factor.is_some()),
+            ("where", traction.within.is_some()),
+        ];
+        for (key, _) in others.iter().filter(|(_, there)| *there) {
+            let remedy = "take it out here, or make two loads of it";
+            self.issue(&path.key(key), At::Key, "a force at a point does not have this", remedy);
+        }
+        let force = [("fx", &traction.fx), ("fy", &traction.fy)];
+        let force = force.map(|(key, value)| self.or_zero(value.as_ref(), &path.key(key)));
+        let none = || LoadProfile::uniform(TimeValue::Constant(0.0));
+        Traction { curve: point.to_owned(), force: Some(force), components: [none(), none()], pressure: None }
     }
 
     /// The components of a load on the surface, which do not vary with depth.
@@ -117,6 +142,10 @@ impl Checker {
         file: &raw::CaseFile,
         path: &Path,
     ) -> SurfaceLoad {
+        for (key, _) in [("fx", &traction.fx), ("fy", &traction.fy)].iter().filter(|(_, value)| value.is_some()) {
+            let remedy = "name a physical point with `on` in place of the surface, or give `tx` and `ty`";
+            self.issue(&path.key(key), At::Key, "a force acts at a point", remedy);
+        }
         let of = self.surface(surface, file, &path.key("surface"));
         let loads = [traction.tx.is_some(), traction.ty.is_some(), traction.shear.is_some()];
         if !loads.contains(&true) && traction.pressure.is_none() {

@@ -11,7 +11,7 @@ use super::{
     changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, pores, scheme, search,
     seeded, staged, unconnected, unmeant, wall, water,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::gravity::Gravity;
 use crate::io::phase_state::End;
 use crate::io::provenance::Origin;
@@ -28,6 +28,7 @@ use crate::term::{
     PressureField, SmoothPressure, Term,
 };
 use crate::time_value::TimeValue;
+use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
@@ -105,6 +106,13 @@ impl Begin<'_> {
     /// What the run begins with, given the state before the first step.
     fn state(&self, scene: &Scene<2>, seeded: State<2>) -> Result<First<2>> {
         let after = match self.start {
+            Some(_) if !scene.loaded.is_empty() => {
+                return Err(Error::input(
+                    "start_from",
+                    "a force acts at a point of soil, and the other run did not follow the soil that was there as it began",
+                    "load a structure or finite elements, or put the phases into one case",
+                ));
+            }
             Some(start) => Some(checkpoint::after_phase(start.read()?, scene, &seeded, start.begun)?),
             None => None,
         };
@@ -263,7 +271,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
+    let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
+    let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -279,6 +289,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         supports,
         phases,
         traced,
+        loaded: loaded.into_iter().collect(),
         basis,
         numerics: case.numerics.solver.clone(),
         gravity: case.gravity,

@@ -42,6 +42,8 @@ pub struct Scene<const D: usize> {
     pub phases: Vec<Phase>,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.
     pub traced: Vec<u32>,
+    /// Those of them at whose material forces act.
+    pub loaded: Vec<u32>,
     pub numerics: Numerics,
     /// Acceleration of gravity (m/s²), for the energies in the log.
     pub gravity: [f64; D],

@@ -115,6 +115,8 @@ pub struct Frame<'a, const D: usize> {
     pub ghost: &'a [GhostFace],
     /// The contact nodes that face something; empty where the scene has no contact.
     pub constraints: &'a [PlacedConstraint<D>],
+    /// The nodes at whose material of the first state forces act, where this is not at them any more: the nodes of its cell with their shares (-).
+    pub loaded: &'a [(u32, Vec<(u32, f64)>)],
     /// The pieces of the boundary of the material; empty where the scene has no use for them.
     pub boundary: &'a [Piece],
     /// The parts of these that no structure covers as the step begins.

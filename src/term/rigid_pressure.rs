@@ -1,5 +1,5 @@
-//! The pressure of water, or of a load on a curve, on a rigid body: `−∫ p n dS` over its boundary or a part of it in the trial pose, and the moment of
-//! that about the reference point.
+//! The pressure of water, or of a load on a curve, on a rigid body: `−∫ p n dS` over its boundary or a part of it in the trial pose, and the moment
+//! of that about the reference point.
 //!
 //! The boundary turns with the body, its normals too. It is closed, so that water has a potential and its tangent is symmetric; that of a load on
 //! a curve is not.

@@ -5,7 +5,7 @@
 
 use super::facet_pressure::spans;
 use super::{Assembly, Frame, Role, Term, Trial};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::dot;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
@@ -107,17 +107,34 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for Traction<K, D> {
         }
         let t: [f64; D] = std::array::from_fn(|d| -self.value[d].at(trial.time));
         for &(node, area) in &self.area {
-            let own = [(node, 1.0)];
-            for &(control, by) in frame.linear_constraints.map_or(&own[..], |all| all.of_node(node)) {
-                let block = frame.block[control as usize];
-                if block != u32::MAX {
-                    let first = frame.pattern.start[block as usize] as usize;
-                    for d in 0..D {
-                        out.force[first + d] += by * (area * t[d]);
-                    }
-                }
+            let Some((_, shares)) = frame.loaded.iter().find(|(loaded, _)| *loaded == node) else {
+                add(frame, node, t.map(|t| area * t), out);
+                continue;
+            };
+            // The material of a point load is not at its node any more.
+            if shares.is_empty() {
+                return Err(Error::analysis(
+                    "a force at a point",
+                    "the soil that it acts on is in no cell with material points",
+                    "take smaller steps, or load a structure in contact with the soil",
+                ));
             }
+            shares.iter().for_each(|&(n, share)| add(frame, n, t.map(|t| share * (area * t)), out));
         }
         Ok(())
+    }
+}
+
+/// Adds a force (kN) to the equations of a node, or of the controls of its values.
+fn add<const D: usize>(frame: &Frame<D>, node: u32, force: [f64; D], out: &mut Assembly) {
+    let own = [(node, 1.0)];
+    for &(control, by) in frame.linear_constraints.map_or(&own[..], |all| all.of_node(node)) {
+        let block = frame.block[control as usize];
+        if block != u32::MAX {
+            let first = frame.pattern.start[block as usize] as usize;
+            for d in 0..D {
+                out.force[first + d] += by * force[d];
+            }
+        }
     }
 }

@@ -24,6 +24,7 @@ mod moved_curves;
 mod obstacles;
 pub mod patch;
 mod phases;
+mod point_loads;
 mod random_scenes;
 mod random_strength;
 mod resampled;

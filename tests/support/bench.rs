@@ -228,6 +228,7 @@ impl Bench {
             water,
             supports: self.supports,
             traced: Vec::new(),
+            loaded: Vec::new(),
             phases: vec![Phase {
                 name: "test".into(),
                 dynamic: self.dynamic,

@@ -180,6 +180,7 @@ impl<K: Kinematics<2>> Stand<K> {
             water,
             supports: Vec::new(),
             traced: Vec::new(),
+            loaded: Vec::new(),
             phases: vec![phase.clone(), phase],
             basis: scheme,
             numerics: Numerics {

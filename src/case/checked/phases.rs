@@ -54,10 +54,13 @@ pub struct Prescribed {
     pub displacement: TimeValue,
 }
 
-/// A load on a curve.
+/// A load on a curve, or at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traction {
+    /// The name of the curve or the point.
     pub curve: String,
+    /// The force (kN, in plane strain per metre) at a point; `None` on a curve, which has the rest.
+    pub force: Option<[TimeValue; 2]>,
     /// In fixed directions, per area of the undeformed curve.
     pub components: [LoadProfile; 2],
     /// At right angles to the curve where it is, per area of it as it is.
@@ -67,7 +70,8 @@ pub struct Traction {
 impl Traction {
     /// All that varies in time.
     pub fn values(&self) -> impl Iterator<Item = &TimeValue> {
-        self.components.iter().chain(&self.pressure).flat_map(|load| [&load.top, &load.gradient])
+        let profiles = self.components.iter().chain(&self.pressure).flat_map(|load| [&load.top, &load.gradient]);
+        profiles.chain(self.force.iter().flatten())
     }
 }
 

@@ -22,7 +22,7 @@ pub struct Phase {
     /// Displacements since the beginning of the phase, by the name of a physical curve or a rigid structure.
     #[serde(default)]
     pub prescribe: BTreeMap<String, Motion>,
-    /// Loads on named curves, or on the surface of the material points.
+    /// Loads on named curves, at named points, or on the surface of the material points.
     #[serde(default)]
     pub tractions: Vec<Traction>,
     /// Height y of the water level outside in this phase (m). Default: that of `water`.
@@ -191,12 +191,13 @@ pub struct Motion {
     pub rotation: Option<InTime>,
 }
 
-/// A load: `on` a named curve, dead tractions per area of the undeformed curve and a pressure that follows it; or on the `surface` of the
-/// material points, which it follows, per area of the surface as it is.
+/// A load: a force `on` a named point; `on` a named curve, dead tractions per area of the undeformed curve and a pressure that follows it; or on
+/// the `surface` of the material points, which it follows, per area of the surface as it is.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Traction {
-    /// The name of a physical curve: tx and ty are dead loads per area of the undeformed curve, a pressure follows it.
+    /// The name of a physical curve: tx and ty are dead loads per area of the undeformed curve, a pressure follows it; or of a physical point,
+    /// with fx and fy.
     pub on: Option<String>,
     /// In place of a curve, the surface of the material points of a region, by its name, or of `all`: per area of the present surface.
     pub surface: Option<String>,
@@ -204,6 +205,10 @@ pub struct Traction {
     pub tx: Option<Load>,
     /// Vertical traction, positive upwards; on a curve it may vary with depth (kPa).
     pub ty: Option<Load>,
+    /// Horizontal (in axisymmetry radial) force at a point, per metre out of the plane or in axisymmetry of the whole turn (kN).
+    pub fx: Option<InTime>,
+    /// Vertical force at a point, positive upwards, per metre out of the plane or in axisymmetry of the whole turn (kN).
+    pub fy: Option<InTime>,
     /// Pressure at right angles to a surface or a curve, compression positive; it may grow with depth (kPa).
     pub pressure: Option<Load>,
     /// Traction along a surface, positive in the direction that has the soil on its left (kPa).

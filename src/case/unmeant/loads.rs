@@ -32,7 +32,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
     for phase in &case.phases {
         for load in &phase.tractions {
             let Some(curve) = mesh.group(&load.curve) else { continue };
-            if is_axis(case, mesh, curve) {
+            if load.force.is_none() && is_axis(case, mesh, curve) {
                 warnings.push(format!(
                     "warning: phase `{}`: the traction on `{}` does nothing: the curve lies on the axis of symmetry, where a load has no area; \
                      take it out, or load a curve at a radius above 0",
@@ -41,6 +41,17 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
                 continue;
             }
             let held = [0, 1].map(|d| is_held(case, phase, mesh, curve, d));
+            for (d, force) in load.force.iter().flatten().enumerate() {
+                let on_axis = d == 0 && is_axis(case, mesh, curve);
+                if !force.is_zero() && (held[d] || on_axis) {
+                    let why =
+                        if on_axis { "lies on the axis of symmetry" } else { "is held or moved in that direction" };
+                    warnings.push(format!(
+                        "warning: phase `{}`: `f{}` at `{}` does nothing: the point {why}; take one of the two out",
+                        phase.name, AXES[d], load.curve
+                    ));
+                }
+            }
             if load.pressure.is_some() && (0..2).all(|d| held[d] || !presses(mesh, curve, d)) {
                 let name = &load.curve;
                 warnings.push(format!(
@@ -93,7 +104,7 @@ fn twice(phase: &Phase) -> Vec<String> {
     };
     let curves = phase.tractions.iter().enumerate().filter(|(i, load)| phase.tractions[..*i].contains(load));
     let surfaces = phase.surface_loads.iter().enumerate().filter(|(i, load)| phase.surface_loads[..*i].contains(load));
-    let curves = curves.map(|(_, load)| said(format!("the traction on `{}`", load.curve)));
+    let curves = curves.map(|(_, load)| said(format!("the load on `{}`", load.curve)));
     curves.chain(surfaces.map(|_| said("a load on the surface".to_owned()))).collect()
 }
 
@@ -121,6 +132,9 @@ fn values(case: &Case, k: usize) -> Vec<(String, &TimeValue)> {
 
 /// The values of a load on a curve.
 fn of_curve(load: &Traction) -> Vec<(String, &TimeValue)> {
+    if let Some(force) = &load.force {
+        return [0, 1].map(|d| (format!("`f{}` at `{}`", AXES[d], load.curve), &force[d])).to_vec();
+    }
     let name = |key: &str| format!("`{key}` of the traction on `{}`", load.curve);
     let keys = [("tx", &load.components[0]), ("ty", &load.components[1])];
     let loads = keys.into_iter().chain(load.pressure.iter().map(|pressure| ("pressure", pressure)));

@@ -29,6 +29,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         quadrature: Box::new(Volumes::<K>::default()),
         supports: Vec::new(),
         traced: Vec::new(),
+        loaded: Vec::new(),
         phases: vec![Phase {
             name: "flight".into(),
             dynamic: true,
