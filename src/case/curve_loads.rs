@@ -15,6 +15,9 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 type Terms = Vec<Box<dyn Term<2>>>;
 
+/// What nodes have of a load: the shares, and the value in time of which these are.
+type DeadLoad = (Vec<(u32, f64)>, [TimeValue; 2]);
+
 /// A side of a cell.
 type Side = (u32, u8);
 
@@ -82,8 +85,8 @@ pub fn on_rigid<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, (body, number): (
     Ok(terms)
 }
 
-/// The dead parts of a load on a curve or at the nodes of a point: the shares of the nodes, and a value in time of which these have so much.
-fn dead<K: Kinematics<2>>(load: &Load, mesh: &Mesh<2>, curve: &Group) -> Vec<(Vec<(u32, f64)>, [TimeValue; 2])> {
+/// The dead parts of a load on a curve or at the nodes of a point.
+fn dead<K: Kinematics<2>>(load: &Load, mesh: &Mesh<2>, curve: &Group) -> Vec<DeadLoad> {
     if let Some(force) = &load.force {
         return vec![(curve.nodes.iter().map(|&n| (n, 1.0)).collect(), force.clone())];
     }

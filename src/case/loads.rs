@@ -148,7 +148,8 @@ impl Checker {
         }
         let of = self.surface(surface, file, &path.key("surface"));
         let loads = [traction.tx.is_some(), traction.ty.is_some(), traction.shear.is_some()];
-        if !loads.contains(&true) && traction.pressure.is_none() {
+        let misplaced = traction.fx.is_some() || traction.fy.is_some();
+        if !loads.contains(&true) && traction.pressure.is_none() && !misplaced {
             self.issue(path, At::Value, "there is no load", "add `pressure: …`, `shear: …`, `tx: …` or `ty: …`");
         }
         let factor = self.factor(traction, path);

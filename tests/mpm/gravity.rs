@@ -1,6 +1,6 @@
 //! Gravity by component, through the program: a horizontal acceleration on soil, as in pseudo-static analyses.
 
-use crate::support::{column, mpm, said, solve_text, written};
+use crate::support::{column, in_folder, said, solve_text, written};
 use mpm::io::frame::{self, Frame};
 use std::path::Path;
 
@@ -72,11 +72,11 @@ fn components_that_cannot_be_meant_are_refused() {
         ("{z: 1}", ["z", "gravity", "`x`"]),
     ] {
         let folder = written(&strip("", &phase("quake", gravity)));
-        let output = mpm("check", folder.path(), folder.path(), &[]);
+        let output = in_folder(folder.path(), &["check", "."]);
         let said = said(&output);
         assert!(!output.status.success() && told.iter().all(|told| said.contains(told)), "{gravity}: {said}");
     }
     let folder = written(&strip("", &phase("quake", "{x: 1}")).replace("gravity: {y: -10}\n", ""));
-    let told = said(&mpm("check", folder.path(), folder.path(), &[]));
+    let told = said(&in_folder(folder.path(), &["check", "."]));
     assert!(told.contains("the case has no gravity that a phase could change"), "{told}");
 }

@@ -1,6 +1,6 @@
 //! Forces at points, through the program: Flamant's and Boussinesq's solutions, and force and moment on rigid bodies.
 
-use crate::support::{column, mpm, said, succeeds};
+use crate::support::{column, in_folder, mpm, said, succeeds};
 use mpm::io::frame::{self, Frame};
 use std::f64::consts::{PI, TAU};
 use std::fs;
@@ -134,12 +134,12 @@ fn forces_that_have_no_place_are_told() {
         ("{on: P, fx: {table: [[0, 0], [2, 5]]}}", "the table of `fx` at `P` goes to 2 s"),
     ] {
         let folder = written(BLOCK, &block("kind: structure", held, &format!("tractions: [{load}]")));
-        let said = said(&mpm("check", folder.path(), folder.path(), &[]));
+        let said = said(&in_folder(folder.path(), &["check", "."]));
         assert!(said.contains(told), "{load}: {said}");
     }
     let away = BLOCK.replace("Physical Point(\"Q\") = {1}", "Physical Point(\"Q\") = {5}");
     let folder = written(&away, &block("kind: structure", held, "tractions: [{on: Q, fy: -1}]"));
-    let said = said(&mpm("check", folder.path(), folder.path(), &[]));
+    let said = said(&in_folder(folder.path(), &["check", "."]));
     assert!(said.contains("there is no soil and no structure at the point"), "{said}");
 }
 
