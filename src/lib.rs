@@ -50,6 +50,7 @@ pub mod dofs;
 pub mod draw;
 pub mod error;
 pub mod geometry;
+pub mod gravity;
 pub mod interpolation;
 pub mod io;
 pub mod kinematics;

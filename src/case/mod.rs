@@ -11,6 +11,7 @@ pub mod checked;
 mod contact_interfaces;
 mod contacts;
 mod controls;
+mod curve_loads;
 mod drained_surface;
 mod drains;
 mod earth_pressure;

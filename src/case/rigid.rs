@@ -1,6 +1,7 @@
 //! The rigid structures and walls of a case: their nodes in the mesh, and what holds and moves them.
 
 use super::checked::{self, Case, Geometry, Phase};
+use super::curve_loads;
 use super::find::{group, region_index};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
@@ -9,7 +10,7 @@ use crate::points::Points;
 use crate::rigid::Body;
 use crate::seed::{QUADRATURE, RegionSeed, seed};
 use crate::step::{Fixed, Prescribed};
-use crate::term::{RigidInertia, RigidPressure, RigidTraction, RigidWeight, Term, Traction};
+use crate::term::{RigidInertia, RigidPressure, RigidWeight, Term};
 use crate::time_value::TimeValue;
 use std::collections::HashSet;
 
@@ -66,21 +67,13 @@ pub fn terms<K: Kinematics<2>>(
             terms.push(Box::new(RigidPressure::<K>::new(body, number, mesh, water.heads(size))));
         }
         if case.gravity != [0.0; 2] && body.mass > 0.0 {
-            let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
-            terms.push(Box::new(RigidWeight::new(body, case.gravity, factors)));
+            let gravity = case.phases.iter().map(|p| p.gravity.clone()).collect();
+            terms.push(Box::new(RigidWeight::new(body, gravity)));
         }
         if dynamic {
             terms.push(Box::new(RigidInertia::new(body)));
         }
-        for (phase, traction) in
-            case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t)))
-        {
-            if body_of(mesh, body, &traction.curve) {
-                let shares = Traction::<K, 2>::shares(mesh, group(mesh, &traction.curve)?);
-                let value = traction.components.clone();
-                terms.push(Box::new(RigidTraction::new(body, &mesh.nodes, &shares, phase, value)));
-            }
-        }
+        terms.extend(curve_loads::on_rigid::<K>(case, mesh, (body, number))?);
     }
     Ok(terms)
 }

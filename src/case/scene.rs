@@ -8,10 +8,11 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    changes, contact_interfaces, controls, drained_surface, layout, outputs, parts, pores, removed, scheme, search,
-    seeded, staged, unconnected, unmeant, wall, water,
+    changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, pores, removed,
+    scheme, search, seeded, staged, unconnected, unmeant, wall, water,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::gravity::Gravity;
 use crate::io::phase_state::End;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
@@ -24,9 +25,10 @@ use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
 use crate::step::{Fem, Phase, Scene, Search, State, Stop, overlap};
 use crate::term::{
     BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
-    PressureField, SmoothPressure, Term, Traction,
+    PressureField, SmoothPressure, Term,
 };
 use crate::time_value::TimeValue;
+use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
@@ -104,6 +106,13 @@ impl Begin<'_> {
     /// What the run begins with, given the state before the first step.
     fn state(&self, scene: &Scene<2>, seeded: State<2>) -> Result<First<2>> {
         let after = match self.start {
+            Some(_) if !scene.loaded.is_empty() => {
+                return Err(Error::input(
+                    "start_from",
+                    "a force acts at a point of soil, and the other run did not follow the soil that was there as it began",
+                    "load a structure or finite elements, or put the phases into one case",
+                ));
+            }
             Some(start) => Some(checkpoint::after_phase(start.read()?, scene, &seeded, start.begun)?),
             None => None,
         };
@@ -217,14 +226,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         terms.push(Box::new(Inertia::<K>::default()));
     }
     terms.extend(water::terms::<K>(case, &mesh, size)?);
-    for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
-        if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
-            continue;
-        }
-        let place = || format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name);
-        let group = parts::material_curve(case, (&mesh, fem.as_ref()), &traction.curve, place)?;
-        terms.push(Box::new(Traction::<K, 2>::new(&mesh, group, phase, traction.components.clone())));
-    }
+    let [on_grid, on_elements] = curve_loads::terms::<K>(case, (&mesh, fem.as_ref()), &bodies[..structures])?;
+    terms.extend(on_grid);
 
     let fem = match fem {
         Some(part) => {
@@ -238,6 +241,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
                 terms.push(Box::new(Inertia::<K>::default()));
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
+            terms.extend(on_elements);
             terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size)?);
             let carried = changes::ever(case, &part, |m| m.carried.is_some())?;
             let rigid = regions(case, &part, Content::is_rigid);
@@ -268,7 +272,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
     let removals = (0..case.phases.len()).map(|number| removed::of_phase(case, &mesh, number)).collect();
+    let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
+    let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -285,9 +291,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         phases,
         removals,
         traced,
+        loaded: loaded.into_iter().collect(),
         basis,
         numerics: case.numerics.solver.clone(),
         gravity: case.gravity,
+        strongest_gravity: strongest_gravity(case),
         stiffness_scale,
         density_scale,
     };
@@ -325,7 +333,14 @@ fn internal<K: Kinematics<2>>(
 }
 
 fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
-    BodyForce::new(case.gravity, case.phases.iter().map(|p| p.gravity.clone()).collect())
+    BodyForce::new(case.phases.iter().map(|p| p.gravity.clone()).collect())
+}
+
+/// The largest acceleration of gravity (m/s²): that of the case, or of a phase with components of its own.
+fn strongest_gravity(case: &Case) -> f64 {
+    let own = case.phases.iter().filter(|phase| matches!(phase.gravity, Gravity::Components(_)));
+    let accelerations = own.flat_map(|phase| phase.gravity.extremes(phase.duration)).chain([case.gravity]);
+    accelerations.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max)
 }
 
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Quadrature<2>>> {
@@ -363,9 +378,9 @@ fn phase(
     let loads: Vec<&TimeValue> = phase
         .tractions
         .iter()
-        .flat_map(|t| &t.components)
+        .flat_map(|t| t.values())
         .chain(water::values(case, number, phase))
-        .chain(std::iter::once(&phase.gravity))
+        .chain(phase.gravity.values())
         .chain(&phase.reduction)
         .collect();
     let values = phase.prescribed.iter().map(|p| &p.displacement).chain(loads.iter().copied());

@@ -2,6 +2,7 @@
 
 use super::record::{self, Quantity, Watch};
 use crate::error::{Error, Kind, Result};
+use crate::gravity::Gravity;
 use crate::kinematics::Kinematics;
 use crate::step::{Controller, Phase, Report, Scene, Simulation, State, kink};
 use crate::time_value::TimeValue;
@@ -226,8 +227,16 @@ pub fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, st
 fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<D>) -> Vec<String> {
     let (now, end) = (state.phase_time, phase.duration);
     let varies = |value: &TimeValue| !matches!(value, TimeValue::Constant(_)) && value.at(end) != 0.0;
-    let factors = scene.terms.iter().filter_map(|term| term.factor(state.phase)).filter(|value| varies(value));
-    let factors = factors.map(|value| format!("the gravity factor {:.4} of {:.4}", value.at(now), value.at(end)));
+    let gravity = scene.terms.iter().find_map(|term| term.gravity(state.phase));
+    let of_gravity = |d: usize, value: &TimeValue| match gravity {
+        Some(Gravity::Components(_)) => {
+            let axis = ["x", "y", "z"][d];
+            format!("a gravity of {:.4} of {:.4} m/s² in {axis}", value.at(now), value.at(end))
+        }
+        _ => format!("the gravity factor {:.4} of {:.4}", value.at(now), value.at(end)),
+    };
+    let values = gravity.iter().flat_map(|gravity| gravity.values()).enumerate();
+    let gravity = values.filter(|(_, value)| varies(value)).map(|(d, value)| of_gravity(d, value));
     let moved = phase.prescribed.iter().filter(|p| varies(&p.displacement)).map(|p| {
         let (now, end) = (p.displacement.at(now), p.displacement.at(end));
         match p.fixed.nodes.first().and_then(|&n| scene.turning(n)) {
@@ -240,5 +249,5 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     let held = state.ramp.share(now);
     let released = (held > 0.0 && now > state.ramp.from)
         .then(|| format!("{:.1} % of what was out of balance {}", 100.0 * (1.0 - held), since(state)));
-    factors.chain(moved).chain(reduction).chain(released).collect()
+    gravity.chain(moved).chain(reduction).chain(released).collect()
 }

@@ -45,9 +45,13 @@ pub struct Scene<const D: usize> {
     pub removals: Vec<Option<Removal<D>>>,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.
     pub traced: Vec<u32>,
+    /// Those of them at whose material forces act.
+    pub loaded: Vec<u32>,
     pub numerics: Numerics,
     /// Acceleration of gravity (m/s²), for the energies in the log.
     pub gravity: [f64; D],
+    /// The largest (m/s²) that a phase has.
+    pub strongest_gravity: f64,
     /// Largest confined modulus λ + 2G (kPa) and density (t/m³) of the scene: rounding is measured by the
     /// first, the spread of the motion over empty nodes by the second.
     pub stiffness_scale: f64,

@@ -30,6 +30,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         supports: Vec::new(),
         traced: Vec::new(),
         removals: Vec::new(),
+        loaded: Vec::new(),
         phases: vec![Phase {
             name: "flight".into(),
             dynamic: true,
@@ -56,6 +57,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             max_iterations: 25,
         },
         gravity: [0.0; 2],
+        strongest_gravity: 0.0,
         stiffness_scale: 1.0,
         density_scale: 2.0,
     }
