@@ -1,7 +1,6 @@
 //! The rigid structures and walls of a case: their nodes in the mesh, and what holds and moves them.
 
 use super::checked::{self, Case, Geometry, Phase};
-use super::curve_loads;
 use super::find::{group, region_index};
 use crate::error::{Error, Result};
 use crate::kinematics::Kinematics;
@@ -50,17 +49,14 @@ pub fn bodies(case: &Case, mesh: &Mesh<2>, walls: Vec<(u16, Vec<u32>)>) -> Resul
     Ok(bodies)
 }
 
-/// What acts on the rigid structures, given the part of the mesh with them and the size (m) of its cells.
-///
-/// # Errors
-/// Input: a traction on a curve that the mesh has not.
+/// What acts on the rigid structures beside loads on curves, given the part of the mesh with them and the size (m) of its cells.
 pub fn terms<K: Kinematics<2>>(
     case: &Case,
     mesh: &Mesh<2>,
     bodies: &[Body<2>],
     dynamic: bool,
     size: f64,
-) -> Result<Vec<Box<dyn Term<2>>>> {
+) -> Vec<Box<dyn Term<2>>> {
     let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
     for (number, body) in bodies.iter().enumerate() {
         if let Some(water) = case.water.as_ref().filter(|water| water.level.is_some()) {
@@ -73,9 +69,8 @@ pub fn terms<K: Kinematics<2>>(
         if dynamic {
             terms.push(Box::new(RigidInertia::new(body)));
         }
-        terms.extend(curve_loads::on_rigid::<K>(case, mesh, (body, number))?);
     }
-    Ok(terms)
+    terms
 }
 
 /// The motion of a body in a component, 0 for x, 1 for y, 2 for the rotation (m, rad); `None` where it does not turn.

@@ -242,7 +242,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
             terms.extend(on_elements);
-            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size)?);
+            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size));
+            for structure in bodies[..structures].iter().zip(0..) {
+                terms.extend(curve_loads::on_rigid::<K>(case, &part, structure)?);
+            }
             let carried = changes::ever(case, &part, |m| m.carried.is_some())?;
             let rigid = regions(case, &part, Content::is_rigid);
             let with = |r: usize| carried[r] && !rigid[r];

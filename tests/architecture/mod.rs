@@ -8,7 +8,18 @@ use std::path::{Path, PathBuf};
 
 /// The modules by layer, lowest first.
 const LAYERS: [&[&str]; 7] = [
-    &["error", "geometry", "machine", "profile", "program", "reading", "tensor", "time_integration", "time_value"],
+    &[
+        "error",
+        "geometry",
+        "gravity",
+        "machine",
+        "profile",
+        "program",
+        "reading",
+        "tensor",
+        "time_integration",
+        "time_value",
+    ],
     &["material", "mesh"],
     &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "interpolation", "surface", "system"],
     &["soil", "term"],
