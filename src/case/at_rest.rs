@@ -63,7 +63,7 @@ pub(super) fn stress(case: &Case, mesh: &Mesh<2>, k0: &[EarthPressure], points: 
 /// # Errors
 /// As `stress`.
 pub fn imbalance(case: &Case, mesh: &Mesh<2>) -> Result<Option<String>> {
-    let Some(k0) = &case.k0 else { return Ok(None) };
+    let Some(k0) = case.k0.as_ref().filter(|_| !case.equilibrium) else { return Ok(None) };
     let ground = Ground::new(case, mesh);
     let lines = ground.lines();
     let mut points = Points::default();
@@ -98,12 +98,16 @@ pub fn imbalance(case: &Case, mesh: &Mesh<2>) -> Result<Option<String>> {
     let found = worst.filter(|[most, least]| most.0 - least.0 > LEVEL * largest);
     // In a quasi-static phase the water of undrained soil would bear the weight.
     let undrained = filled(case).any(|(_, material)| material.has_pore_pressure());
-    let analysis = if undrained { "consolidation" } else { "quasi_static" };
+    let cure = if undrained {
+        "take `initial_stress` out and load gravity in a first consolidation phase"
+    } else {
+        "add `then: equilibrium` to `initial_stress`, or take it out and load gravity in a first quasi_static phase"
+    };
     Ok(found.map(|[most, least]| {
         format!(
             "warning: the soil does not begin in equilibrium: `initial_stress` has horizontal stresses of {:.3} kPa at x = {:.2} m and {:.3} kPa \
              at x = {:.2} m, both at y = {:.2} m, which need to be the same; over all heights {:.3} kN/m are unbalanced, and the soil moves in the \
-             first step; where ground or layers are not level, take `initial_stress` out and load gravity in a first {analysis} phase",
+             first step; where ground or layers are not level, {cure}",
             most.0, most.1[0], least.0, least.1[0], most.1[1], force
         )
     }))

@@ -67,8 +67,10 @@ impl Checker {
             .collect();
         let contacts = self.contacts(file, &root.key("contacts"));
         let numerics = self.numerics(file, !contacts.is_empty(), &root.key("numerics"));
-        let phases = self.phases(file, &numerics, &root.key("phases"));
+        let mut phases = self.phases(file, &numerics, &root.key("phases"));
         let k0 = self.earth_pressures(file, &materials, &root.key("initial_stress").key("k0"));
+        let mut water = self.water(file, &root);
+        let equilibrium = self.equilibrium(file, &mut phases, water.as_mut(), &root);
         let case = Case {
             title: file.title.clone(),
             geometry: self.geometry(file.geometry, &root.key("geometry")),
@@ -79,11 +81,12 @@ impl Checker {
             supports: self.supports(file, &root.key("supports")),
             gravity,
             k0,
-            water: self.water(file, &root),
+            water,
             initial_pore_pressure: self.initial_pore_pressure(file, &root.key("initial_pore_pressure")),
             initial_velocity: self.initial_velocity(file, &root.key("initial_velocity")),
             numerics,
             phases,
+            equilibrium,
             output: self.output(&file.output, &root.key("output")),
             drained_surface: self.drained_surface(file, &root.key("drained_surface")),
             unlikely: unlikely::values(file),

@@ -41,6 +41,8 @@ pub struct Case {
     pub initial_velocity: Vec<InitialVelocity>,
     pub numerics: Numerics,
     pub phases: Vec<Phase>,
+    /// Whether the first of them brings the initial stress into equilibrium; it is not one of the case file.
+    pub equilibrium: bool,
     pub output: Output,
     /// The surface that drains.
     pub drained_surface: Option<Surface>,
@@ -49,6 +51,11 @@ pub struct Case {
 }
 
 impl Case {
+    /// The phases of the case file, each with its number there.
+    pub fn own_phases(&self) -> impl Iterator<Item = (usize, &Phase)> {
+        self.phases.iter().skip(usize::from(self.equilibrium)).enumerate()
+    }
+
     /// What the region of this name is, if there is one.
     pub fn content(&self, region: &str) -> Option<Content> {
         self.regions.iter().find(|other| other.name == region).map(|region| region.content)

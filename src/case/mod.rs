@@ -15,6 +15,7 @@ mod curve_loads;
 mod drained_surface;
 mod drains;
 mod earth_pressure;
+mod equilibrium;
 mod find;
 mod incompressible;
 pub mod issue;

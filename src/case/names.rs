@@ -59,7 +59,7 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
             names.curve(curve, &root.key("contacts").index(i).key("wall"), At::Value);
         }
     }
-    for (i, phase) in case.phases.iter().enumerate() {
+    for (i, phase) in case.own_phases() {
         let path = root.key("phases").index(i);
         let mut curves: Vec<&str> = phase.prescribed.iter().map(|p| p.curve.as_str()).collect();
         curves.dedup();

@@ -99,7 +99,7 @@ pub const SHAPES: [(&str, &[Product]); 17] = [
     ("contacts", &[Product::Results]),
     ("supports", &[Product::Results]),
     ("gravity", &[Product::Points, Product::Results]),
-    ("initial_stress", &[Product::Points]),
+    ("initial_stress", &[Product::Points, Product::Results]),
     ("initial_pore_pressure", &[Product::Points]),
     ("initial_velocity", &[Product::Points]),
     ("water", &[Product::Points, Product::Results]),
@@ -342,6 +342,16 @@ pub struct Vector {
 pub struct InitialStress {
     /// Horizontal over vertical effective stress, of all soil or by the name of a material; the vertical stress is the weight above the point (-).
     pub k0: EarthPressures,
+    /// What the run does with it before the first phase: equilibrium (a quasi-static phase of its own under the weight, after which displacements are
+    /// counted from 0). Default: nothing.
+    pub then: Option<Then>,
+}
+
+/// What becomes of an initial stress before the first phase.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "snake_case")]
+pub enum Then {
+    Equilibrium,
 }
 
 /// A number or a profile for all soil, or one of each material.

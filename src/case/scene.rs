@@ -74,7 +74,7 @@ pub fn solve(
         Geometry::Axisymmetric => scene::<Axisymmetric>(case, mesh)?,
     };
     let outputs = outputs(case, &scene, folder, begin.origin, warnings)?;
-    let first = begin.state(&scene, first(case, &scene, parts)?)?;
+    let first = begin.state(case, &scene, first(case, &scene, parts)?)?;
     let outputs = Outputs { ends: begin.ends, ..outputs };
     let run = match case.geometry {
         Geometry::PlaneStrain => run::run::<2, PlaneStrain>,
@@ -104,7 +104,7 @@ fn check(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Result<()> {
 
 impl Begin<'_> {
     /// What the run begins with, given the state before the first step.
-    fn state(&self, scene: &Scene<2>, seeded: State<2>) -> Result<First<2>> {
+    fn state(&self, case: &Case, scene: &Scene<2>, seeded: State<2>) -> Result<First<2>> {
         let after = match self.start {
             Some(_) if !scene.loaded.is_empty() => {
                 return Err(Error::input(
@@ -113,7 +113,10 @@ impl Begin<'_> {
                     "load a structure or finite elements, or put the phases into one case",
                 ));
             }
-            Some(start) => Some(checkpoint::after_phase(start.read()?, scene, &seeded, start.begun)?),
+            Some(start) => {
+                let begun = start.begun + usize::from(case.equilibrium);
+                Some(checkpoint::after_phase(start.read()?, scene, &seeded, begun)?)
+            }
             None => None,
         };
         Ok(First { seeded, after })
@@ -144,7 +147,7 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
     }
     let first_step = scene.phases.first().map_or(0.0, |p| p.step.initial);
     let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
-    Ok(State { fem, fem_parametric, ..State::new(points, scene.displacements(), first_step) })
+    Ok(State { fem, fem_parametric, time: scene.begins, ..State::new(points, scene.displacements(), first_step) })
 }
 
 /// Hands the pressure field its share: the points bring the elastic strain of all their stress.
@@ -291,6 +294,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         carried,
         water,
         supports,
+        begins: if case.equilibrium { -case.phases[0].duration } else { 0.0 },
         phases,
         removals,
         traced,
@@ -387,6 +391,7 @@ fn phase(
         .chain(&phase.reduction)
         .collect();
     let values = phase.prescribed.iter().map(|p| &p.displacement).chain(loads.iter().copied());
+    let every = case.output.every.filter(|_| !(case.equilibrium && number == 0));
     Ok(Phase {
         name: phase.name.clone(),
         dynamic: phase.analysis == Analysis::Dynamic,
@@ -402,7 +407,7 @@ fn phase(
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset_displacements: phase.reset_displacements,
-        stops: stops(phase.duration, case.output.every, values.flat_map(TimeValue::kinks)),
+        stops: stops(phase.duration, every, values.flat_map(TimeValue::kinks)),
     })
 }
 

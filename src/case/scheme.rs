@@ -65,7 +65,7 @@ impl Checker {
             let loaded = phase.surface_loads.iter().any(|load| !load.is_pressure_all_around());
             order == Order::Third && loaded
         };
-        for (k, _) in case.phases.iter().enumerate().filter(|(_, phase)| refused(phase)) {
+        for (k, _) in case.own_phases().filter(|(_, phase)| refused(phase)) {
             let problem = "on cells of third order the only load on a surface is a `pressure` on `surface: all`";
             let path = Path::default().key("phases").index(k).key("tractions");
             self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`");

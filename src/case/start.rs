@@ -61,7 +61,7 @@ const INITIAL: [&str; 3] = ["initial_stress", "initial_pore_pressure", "initial_
 const AS_THERE: &str = "make it as it is there, or solve both in one run";
 
 /// What the states at the ends of the own phases of a case belong to, given the hashes of its mesh and its points; `start` is what it goes on
-/// from. By number of the phase, none for those of `start`.
+/// from. By number of the phase, none for those of `start`, and for the one before them all (`initial_stress.then`).
 pub fn ends(tree: &Value, start: Option<&Start>, [mesh, points]: [u64; 2]) -> Vec<Option<End>> {
     let begun = start.map_or(0, |start| start.begun);
     let phases = tree.get("phases").and_then(Value::as_array).map_or(&[][..], Vec::as_slice);
@@ -75,7 +75,9 @@ pub fn ends(tree: &Value, start: Option<&Start>, [mesh, points]: [u64; 2]) -> Ve
             program: program::SOURCE.to_owned(),
         })
     };
-    phases.iter().enumerate().map(end).collect()
+    let then = tree.get("initial_stress").and_then(|initial| initial.get("then"));
+    let before = then.filter(|then| !then.is_null()).map(|_| None);
+    before.into_iter().chain(phases.iter().enumerate().map(end)).collect()
 }
 
 /// The entries of a case that the state at the end of the last of some `phases` depends on.

@@ -11,7 +11,7 @@ use self::falls::{GOOD_STEP, LONG_STEP};
 use super::checked::{Case, Content, Phase, Touched, Touching};
 use super::layout::{Bounds, bounds, gap, moves};
 use super::unconnected::Place;
-use super::{at_rest, drains, unlikely};
+use super::{at_rest, drains, equilibrium, unlikely};
 use crate::error::Result;
 use crate::geometry::box_around;
 use crate::mesh::quality::SAME;
@@ -41,6 +41,7 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
     });
     let strange = case.unlikely.iter().cloned().chain(unlikely::extents(case, places));
     let told = strange.chain(loose).chain(room(case, places)).chain(above_water(case, places));
+    let told = told.chain(equilibrium::undrained(case));
     told.chain(loads::of_case(case)).chain(own_weight::of_case(case, places)).collect()
 }
 

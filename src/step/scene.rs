@@ -43,6 +43,8 @@ pub struct Scene<const D: usize> {
     pub phases: Vec<Phase>,
     /// The soil that each phase removes as it begins.
     pub removals: Vec<Option<Removal<D>>>,
+    /// Time (s) at which the run begins: 0, or less where its first phase comes before those of the user.
+    pub begins: f64,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.
     pub traced: Vec<u32>,
     /// Those of them at whose material forces act.

@@ -14,6 +14,7 @@ mod driven;
 mod elements;
 mod ending;
 mod energy;
+mod equilibrium;
 mod everyday;
 mod excavation;
 mod footings;

@@ -230,6 +230,7 @@ impl Bench {
             traced: Vec::new(),
             removals: Vec::new(),
             loaded: Vec::new(),
+            begins: 0.0,
             phases: vec![Phase {
                 name: "test".into(),
                 dynamic: self.dynamic,

@@ -181,6 +181,7 @@ impl<K: Kinematics<2>> Stand<K> {
             supports: Vec::new(),
             traced: Vec::new(),
             loaded: Vec::new(),
+            begins: 0.0,
             phases: vec![phase.clone(), phase],
             removals: Vec::new(),
             basis: scheme,

@@ -40,7 +40,8 @@ fn ensure(fits: bool, what: &str) -> Result<()> {
 
 /// Where the run is, and the size of its steps.
 fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
-    let State { phase, time, phase_time, step, step_size, last_step, peak, frames, .. } = *state;
+    let State { phase, phase_time, step, step_size, last_step, peak, frames, .. } = *state;
+    let time = state.time - scene.begins;
     let phases = scene.phases.len();
     ensure(phase <= phases, "the number of its phase")?;
     ensure((1..=MOST).contains(&step) && frames <= step + 1, "its number of steps")?;

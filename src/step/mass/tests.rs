@@ -31,6 +31,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         traced: Vec::new(),
         removals: Vec::new(),
         loaded: Vec::new(),
+        begins: 0.0,
         phases: vec![Phase {
             name: "flight".into(),
             dynamic: true,
