@@ -20,6 +20,14 @@ impl TimeValue {
         }
     }
 
+    /// Whether it is 0 throughout.
+    pub fn is_zero(&self) -> bool {
+        match self {
+            Self::Constant(value) | Self::Rate(value) => *value == 0.0,
+            Self::Table(table) => table.iter().all(|[_, value]| *value == 0.0),
+        }
+    }
+
     /// This times a factor.
     pub fn scaled(&self, by: f64) -> Self {
         match self {

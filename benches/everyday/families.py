@@ -1,6 +1,7 @@
 """All kinds of scenes by name, those with answers and those with a relation to another, and the judgement of one of them."""
 
 import column
+import digging
 import dipping
 import footing
 import ground
@@ -15,6 +16,7 @@ from scene import RIGHT, SAID, SILENT, Dice, run, verdict
 ANSWERS = {
     "rest": ground.rest,
     "gravity": ground.gravity,
+    "dig": digging.dig,
     "dipping": dipping.dipping,
     "dipping_rest": dipping.dipping_rest,
     "slope_rest": dipping.slope_rest,

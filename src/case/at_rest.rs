@@ -160,7 +160,8 @@ impl<'a> Ground<'a> {
         let supports = case.supports.iter().filter(|support| support.fixed[0]).map(|support| &support.curve);
         let first = || case.phases.first().into_iter();
         let moved = first().flat_map(|phase| &phase.prescribed).filter(|moved| moved.component == 0);
-        let loaded = first().flat_map(|phase| &phase.tractions).map(|traction| &traction.curve);
+        let loaded =
+            first().flat_map(|phase| &phase.tractions).filter(|load| load.force.is_none()).map(|load| &load.curve);
         let curves = walls.chain(supports).chain(moved.map(|moved| &moved.curve)).chain(loaded);
         let held = curves.filter_map(|curve| mesh.group(curve)).flat_map(|group| group.nodes.iter().copied()).collect();
         Self {

@@ -4,6 +4,7 @@ use super::check::Checker;
 use super::checked::{Analysis, Case, Material, Phase, Prescribed, StepSize, Water};
 use super::locate::{At, Path};
 use super::raw;
+use crate::gravity::Gravity;
 use crate::time_value::TimeValue;
 
 /// The name of the phase.
@@ -34,9 +35,10 @@ impl Checker {
             prescribed: first.prescribed.iter().map(hold).collect(),
             tractions: Vec::new(),
             surface_loads: Vec::new(),
-            gravity: TimeValue::Constant(1.0),
+            gravity: Gravity::Scaled { whole: [file.gravity.x, file.gravity.y], factor: TimeValue::Constant(1.0) },
             reduction: None,
             absent: first.absent.clone(),
+            removed: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
             reset_displacements: false,

@@ -1,7 +1,7 @@
-//! The loads of a phase: dead ones on curves, and those that follow the surface of the material points.
+//! The loads of a phase: those on curves, and those that follow the surface of the material points.
 
 use super::check::Checker;
-use super::checked::{Numerics, Pressure, Restore, Surface, SurfaceLoad, Traction};
+use super::checked::{LoadProfile, Numerics, Restore, Surface, SurfaceLoad, Traction};
 use super::locate::{At, Path};
 use super::raw;
 use super::structure::suggest;
@@ -50,33 +50,70 @@ impl Checker {
         numerics: &Numerics,
         path: &Path,
     ) -> Traction {
+        let at_point = traction.fx.is_some() || traction.fy.is_some();
         let of_elements = |kind| matches!(kind, raw::RegionKind::Fem | raw::RegionKind::Structure);
         let with_elements = file.regions.values().any(|region| of_elements(region.kind));
         // Whether the curve is one of finite elements, only the mesh can tell.
-        if numerics.solver.restore != Restore::Never && !with_elements {
-            let problem = "a traction on a curve needs finite elements, or a grid that moves with the material";
+        if numerics.solver.restore != Restore::Never && !with_elements && !at_point {
+            let problem = "a load on a curve needs finite elements, or a grid that moves with the material";
             let remedy = "load the `surface` of the soil in place of a curve, set `restore: never` under `numerics`, \
                 or make the region beside it `kind: fem`";
             self.issue(&path.key("on"), At::Value, problem, remedy);
         }
-        let of_surfaces = [
+        if at_point {
+            return self.point_load(curve, traction, path);
+        }
+        let of_surfaces = [("shear", traction.shear.is_some()), ("where", traction.within.is_some())];
+        for (key, _) in of_surfaces.iter().filter(|(_, there)| *there) {
+            let remedy = "give `pressure`, `tx` and `ty`, or load a `surface` in place of a curve";
+            self.issue(&path.key(key), At::Key, "a load on a curve does not have this", remedy);
+        }
+        if traction.tx.is_none() && traction.ty.is_none() && traction.pressure.is_none() {
+            let remedy = "add `pressure: …`, `tx: …` or `ty: …` on a curve, `fx: …` or `fy: …` at a point";
+            self.issue(path, At::Value, "there is no load", remedy);
+        }
+        let factor = self.factor(traction, path);
+        let components = [("tx", &traction.tx), ("ty", &traction.ty)].map(|(key, load)| match load {
+            Some(load) => self.load_profile(load, &factor, false, &path.key(key)),
+            None => LoadProfile::uniform(TimeValue::Constant(0.0)),
+        });
+        let pressure = traction.pressure.as_ref();
+        let pressure = pressure.map(|load| self.load_profile(load, &factor, true, &path.key("pressure")));
+        Traction { curve: curve.to_owned(), force: None, components, pressure }
+    }
+
+    /// A force at a point.
+    fn point_load(&mut self, point: &str, traction: &raw::Traction, path: &Path) -> Traction {
+        let others = [
+            ("tx", traction.tx.is_some()),
+            ("ty", traction.ty.is_some()),
             ("pressure", traction.pressure.is_some()),
             ("shear", traction.shear.is_some()),
             ("factor", traction.factor.is_some()),
             ("where", traction.within.is_some()),
         ];
-        for (key, _) in of_surfaces.iter().filter(|(_, there)| *there) {
-            let remedy = "give `tx` and `ty`, or load a `surface` in place of a curve";
-            self.issue(&path.key(key), At::Key, "a load on a curve does not have this", remedy);
+        for (key, _) in others.iter().filter(|(_, there)| *there) {
+            let remedy = "take it out here, or make two loads of it";
+            self.issue(&path.key(key), At::Key, "a force at a point does not have this", remedy);
         }
-        if traction.tx.is_none() && traction.ty.is_none() {
-            self.issue(path, At::Value, "there is no load", "add `tx: …` or `ty: …`");
-        }
-        Traction { curve: curve.to_owned(), components: self.components(traction, path) }
+        let force = [("fx", &traction.fx), ("fy", &traction.fy)];
+        let force = force.map(|(key, value)| self.or_zero(value.as_ref(), &path.key(key)));
+        let none = || LoadProfile::uniform(TimeValue::Constant(0.0));
+        Traction { curve: point.to_owned(), force: Some(force), components: [none(), none()], pressure: None }
     }
 
+    /// The components of a load on the surface, which do not vary with depth.
     fn components(&mut self, traction: &raw::Traction, path: &Path) -> [TimeValue; 2] {
-        [("tx", &traction.tx), ("ty", &traction.ty)].map(|(key, value)| self.or_zero(value.as_ref(), &path.key(key)))
+        [("tx", &traction.tx), ("ty", &traction.ty)].map(|(key, load)| match load {
+            None => TimeValue::Constant(0.0),
+            Some(raw::Load::InTime(value)) => self.in_time(value, &path.key(key)),
+            Some(raw::Load::Profile(_)) => {
+                let remedy = "give a value in time, or vary the `pressure` with depth";
+                let problem = "on a surface a traction in a fixed direction does not vary with depth";
+                self.issue(&path.key(key), At::Value, problem, remedy);
+                TimeValue::Constant(0.0)
+            }
+        })
     }
 
     fn or_zero(&mut self, value: Option<&raw::InTime>, path: &Path) -> TimeValue {
@@ -105,14 +142,21 @@ impl Checker {
         file: &raw::CaseFile,
         path: &Path,
     ) -> SurfaceLoad {
+        for (key, _) in [("fx", &traction.fx), ("fy", &traction.fy)].iter().filter(|(_, value)| value.is_some()) {
+            let remedy = "name a physical point with `on` in place of the surface, or give `tx` and `ty`";
+            self.issue(&path.key(key), At::Key, "a force acts at a point", remedy);
+        }
         let of = self.surface(surface, file, &path.key("surface"));
         let loads = [traction.tx.is_some(), traction.ty.is_some(), traction.shear.is_some()];
-        if !loads.contains(&true) && traction.pressure.is_none() {
+        let misplaced = traction.fx.is_some() || traction.fy.is_some();
+        if !loads.contains(&true) && traction.pressure.is_none() && !misplaced {
             self.issue(path, At::Value, "there is no load", "add `pressure: …`, `shear: …`, `tx: …` or `ty: …`");
         }
+        let factor = self.factor(traction, path);
+        let pressure = traction.pressure.as_ref();
         SurfaceLoad {
             region: of.and_then(Surface::region),
-            pressure: self.pressure(traction, path),
+            pressure: pressure.map(|load| self.load_profile(load, &factor, true, &path.key("pressure"))),
             shear: self.or_zero(traction.shear.as_ref(), &path.key("shear")),
             components: self.components(traction, path),
             within: traction.within.map(|window| {
@@ -128,25 +172,36 @@ impl Checker {
         }
     }
 
-    fn pressure(&mut self, traction: &raw::Traction, path: &Path) -> Option<Pressure> {
-        let profile = matches!(traction.pressure, Some(raw::Load::Profile(_)));
-        if traction.factor.is_some() && !profile {
-            let remedy = "let `pressure` itself vary in time, or give it as {top, gradient, datum}";
-            self.issue(&path.key("factor"), At::Key, "a factor is for a pressure that grows with depth", remedy);
+    /// The factor on the profiles of a load.
+    fn factor(&mut self, traction: &raw::Traction, path: &Path) -> TimeValue {
+        let Some(factor) = &traction.factor else { return TimeValue::Constant(1.0) };
+        let mut loads = [&traction.pressure, &traction.tx, &traction.ty].into_iter().flatten();
+        if !loads.any(|load| matches!(load, raw::Load::Profile(_))) {
+            let remedy = "let the load itself vary in time, or give it as {top, gradient, datum}";
+            self.issue(&path.key("factor"), At::Key, "a factor is for a load that varies with depth", remedy);
         }
-        match traction.pressure.as_ref()? {
-            raw::Load::InTime(value) => Some(Pressure {
-                top: self.in_time(value, &path.key("pressure")),
-                gradient: TimeValue::Constant(0.0),
-                datum: 0.0,
-            }),
-            raw::Load::Profile(profile) => {
-                self.profile_grows(profile, &path.key("pressure"));
-                let one = TimeValue::Constant(1.0);
-                let factor = traction.factor.as_ref().map_or(one, |f| self.in_time(f, &path.key("factor")));
-                let [top, gradient] = [profile.top, profile.gradient].map(|value| factor.scaled(value));
-                Some(Pressure { top, gradient, datum: profile.datum })
-            }
+        self.in_time(factor, &path.key("factor"))
+    }
+
+    /// A load as the entry at `path` has it, a profile times `factor`; one that only `grows` has no negative gradient.
+    fn load_profile(&mut self, load: &raw::Load, factor: &TimeValue, grows: bool, path: &Path) -> LoadProfile {
+        let profile = match load {
+            raw::Load::InTime(value) => return LoadProfile::uniform(self.in_time(value, path)),
+            raw::Load::Profile(profile) => profile,
+        };
+        if grows {
+            self.profile_grows(profile, path);
+        } else if profile.least.is_some() {
+            let remedy = "take `least` out; a traction may have any sign";
+            self.issue(&path.key("least"), At::Key, "a traction has no least value", remedy);
         }
+        let [top, gradient] = [profile.top, profile.gradient].map(|value| factor.scaled(value));
+        LoadProfile { top, gradient, datum: profile.datum }
+    }
+}
+
+impl LoadProfile {
+    fn uniform(top: TimeValue) -> Self {
+        Self { top, gradient: TimeValue::Constant(0.0), datum: 0.0 }
     }
 }

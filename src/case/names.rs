@@ -1,6 +1,6 @@
 //! The names in a case against the physical groups of its mesh.
 
-use super::checked::{Case, Content, Quantity, Touched, Touching};
+use super::checked::{Case, Content, Quantity, Touched, Touching, Traction};
 use super::issue::Issue;
 use super::locate::{At, Path};
 use super::structure::{nearest, suggest};
@@ -75,7 +75,7 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
             names.held(case, curve, &path.key("prescribe").key(curve));
         }
         for (j, traction) in phase.tractions.iter().enumerate() {
-            names.curve(&traction.curve, &path.key("tractions").index(j).key("on"), At::Value);
+            names.loaded(traction, &path.key("tractions").index(j).key("on"));
         }
     }
     for (i, entry) in case.output.history.iter().enumerate() {
@@ -143,6 +143,28 @@ impl Names<'_> {
 
     fn curve(&mut self, name: &str, path: &Path, at: At) {
         self.one_of(name, &self.groups.curves, "physical curve", path, at);
+    }
+
+    /// What bears a load: a curve, or a point with a force.
+    fn loaded(&mut self, load: &Traction, path: &Path) {
+        let (wanted, others) = match load.force {
+            Some(_) => (&self.groups.points, &self.groups.curves),
+            None => (&self.groups.curves, &self.groups.points),
+        };
+        if wanted.contains(&load.curve) || !others.contains(&load.curve) {
+            let kind = if load.force.is_some() { "physical point" } else { "physical curve" };
+            return self.one_of(&load.curve, wanted, kind, path, At::Value);
+        }
+        let (problem, remedy) = match load.force {
+            Some(_) => (
+                "is a physical curve, and a force acts at a point",
+                "give `tx` and `ty` (kPa), or name a physical point",
+            ),
+            None => {
+                ("is a physical point, and a traction acts on a curve", "give `fx` and `fy`, the force at the point")
+            }
+        };
+        self.issues.push(Issue::new(path, At::Value, format!("`{}` {problem}", load.curve), remedy));
     }
 
     /// What is held or moved: a curve, or a rigid structure as a whole.

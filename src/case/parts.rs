@@ -34,6 +34,7 @@ pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
         axisymmetric: case.geometry == Geometry::Axisymmetric,
         resets: case.phases.iter().filter(|phase| phase.reset_displacements).map(|phase| phase.name.clone()).collect(),
         absent: case.phases.iter().map(absent).collect(),
+        removes: case.phases.iter().any(|phase| !phase.removed.is_empty()),
     }
 }
 

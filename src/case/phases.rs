@@ -5,6 +5,7 @@ use super::checked::{Numerics, Phase, Prescribed, StepSize, Until};
 use super::locate::{At, Path};
 use super::raw::{self, Analysis};
 use super::structure::suggest;
+use crate::gravity::Gravity;
 use crate::material::MODELS;
 use crate::time_value::TimeValue;
 use std::collections::HashSet;
@@ -26,7 +27,8 @@ impl Checker {
             let absent = self.absent(phase, checked.last(), file, &path);
             let changes = self.changes(phase, i == 0, file, &mut materials, &path);
             let contacts = self.contact_changes(phase, file, &mut laws, &path);
-            checked.push(Phase { absent, changes, contacts, ..self.phase(phase, file, numerics, &path) });
+            let removed = self.removed(phase, &checked, (file, numerics), &path);
+            checked.push(Phase { absent, removed, changes, contacts, ..self.phase(phase, file, numerics, &path) });
         }
         checked
     }
@@ -65,10 +67,7 @@ impl Checker {
             }
         }
         let (tractions, surface_loads) = self.loads(phase, file, numerics, &path.key("tractions"));
-        let gravity = match &phase.gravity {
-            Some(factor) => self.in_time(factor, &path.key("gravity")),
-            None => TimeValue::Constant(1.0),
-        };
+        let gravity = self.gravity(phase, [file.gravity.x, file.gravity.y], &path.key("gravity"));
         Phase {
             name: phase.name.clone(),
             analysis: phase.analysis,
@@ -80,11 +79,47 @@ impl Checker {
             gravity,
             reduction: self.reduction(phase, file, path),
             absent: Vec::new(),
+            removed: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
             reset_displacements: phase.reset_displacements,
             until: self.until(phase, file, &path.key("until")),
         }
+    }
+
+    /// Gravity in a phase, given that of the case (m/s²).
+    fn gravity(&mut self, phase: &raw::Phase, whole: [f64; 2], path: &Path) -> Gravity<2> {
+        let components = match &phase.gravity {
+            None => return Gravity::Scaled { whole, factor: TimeValue::Constant(1.0) },
+            Some(raw::PhaseGravity::Factor(factor)) => {
+                return Gravity::Scaled { whole, factor: self.in_time(factor, path) };
+            }
+            Some(raw::PhaseGravity::Components(components)) => components,
+        };
+        if components.x.is_none() && components.y.is_none() {
+            let remedy = "add `x: …` or `y: …`, accelerations in m/s², or write a factor on gravity, a number";
+            self.issue(path, At::Value, "gravity has no component", remedy);
+        }
+        if whole == [0.0; 2] {
+            let remedy = "add `gravity: {y: -9.81}` to the case, or take it out here";
+            self.issue(path, At::Key, "the case has no gravity that a phase could change", remedy);
+        }
+        let given = [("x", &components.x), ("y", &components.y)];
+        let mut in_time = |d: usize| match given[d] {
+            (key, Some(value)) => self.in_time(value, &path.key(key)),
+            (_, None) => TimeValue::Constant(whole[d]),
+        };
+        let gravity = Gravity::Components([in_time(0), in_time(1)]);
+        let up = gravity.extremes(phase.duration).map(|g| g[1]).find(|y| y * whole[1] < 0.0);
+        if let Some(up) = up {
+            let problem = format!(
+                "`y` is an acceleration in m/s², positive upwards, and comes to {up}, against the {} of the case",
+                whole[1]
+            );
+            let remedy = format!("write `y: {}`, or a factor on all of gravity, `gravity: 1`", whole[1]);
+            self.issue(&path.key("y"), At::Value, problem, remedy);
+        }
+        gravity
     }
 
     /// What strengths are divided by in a phase. A search goes from 1 upwards by 1 a second where nothing is said.
@@ -137,7 +172,10 @@ impl Checker {
         let mut absent = before.map_or_else(Vec::new, |before| before.absent.clone());
         for (i, name) in phase.deactivate.iter().enumerate() {
             let path = path.key("deactivate").index(i);
-            if !known.contains(&name.as_str()) {
+            if file.regions.get(name).is_some_and(|region| region.kind == raw::RegionKind::Mpm) {
+                let remedy = format!("dig it out with `remove: [{name}]`");
+                self.issue(&path, At::Value, format!("`{name}` is soil of material points"), remedy);
+            } else if !known.contains(&name.as_str()) {
                 let problem = format!("there is no structure, wall or contact `{name}`");
                 self.issue(&path, At::Value, problem, suggest(name, known.iter().copied()));
             } else if absent.contains(name) {

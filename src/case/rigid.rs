@@ -9,7 +9,7 @@ use crate::points::Points;
 use crate::rigid::Body;
 use crate::seed::{QUADRATURE, RegionSeed, seed};
 use crate::step::{Fixed, Prescribed};
-use crate::term::{RigidInertia, RigidPressure, RigidTraction, RigidWeight, Term, Traction};
+use crate::term::{RigidInertia, RigidPressure, RigidWeight, Term};
 use crate::time_value::TimeValue;
 use std::collections::HashSet;
 
@@ -49,40 +49,28 @@ pub fn bodies(case: &Case, mesh: &Mesh<2>, walls: Vec<(u16, Vec<u32>)>) -> Resul
     Ok(bodies)
 }
 
-/// What acts on the rigid structures, given the part of the mesh with them and the size (m) of its cells.
-///
-/// # Errors
-/// Input: a traction on a curve that the mesh has not.
+/// What acts on the rigid structures beside loads on curves, given the part of the mesh with them and the size (m) of its cells.
 pub fn terms<K: Kinematics<2>>(
     case: &Case,
     mesh: &Mesh<2>,
     bodies: &[Body<2>],
     dynamic: bool,
     size: f64,
-) -> Result<Vec<Box<dyn Term<2>>>> {
+) -> Vec<Box<dyn Term<2>>> {
     let mut terms: Vec<Box<dyn Term<2>>> = Vec::new();
     for (number, body) in bodies.iter().enumerate() {
         if let Some(water) = case.water.as_ref().filter(|water| water.level.is_some()) {
             terms.push(Box::new(RigidPressure::<K>::new(body, number, mesh, water.heads(size))));
         }
         if case.gravity != [0.0; 2] && body.mass > 0.0 {
-            let factors = case.phases.iter().map(|p| p.gravity.clone()).collect();
-            terms.push(Box::new(RigidWeight::new(body, case.gravity, factors)));
+            let gravity = case.phases.iter().map(|p| p.gravity.clone()).collect();
+            terms.push(Box::new(RigidWeight::new(body, gravity)));
         }
         if dynamic {
             terms.push(Box::new(RigidInertia::new(body)));
         }
-        for (phase, traction) in
-            case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t)))
-        {
-            if body_of(mesh, body, &traction.curve) {
-                let shares = Traction::<K, 2>::shares(mesh, group(mesh, &traction.curve)?);
-                let value = traction.components.clone();
-                terms.push(Box::new(RigidTraction::new(body, &mesh.nodes, &shares, phase, value)));
-            }
-        }
     }
-    Ok(terms)
+    terms
 }
 
 /// The motion of a body in a component, 0 for x, 1 for y, 2 for the rotation (m, rad); `None` where it does not turn.

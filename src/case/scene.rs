@@ -8,10 +8,11 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    changes, contact_interfaces, controls, drained_surface, layout, outputs, parts, pores, scheme, search, seeded,
-    staged, unconnected, unmeant, wall, water,
+    changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, pores, removed,
+    scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
 };
-use crate::error::Result;
+use crate::error::{Error, Result};
+use crate::gravity::Gravity;
 use crate::io::phase_state::End;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;
@@ -21,12 +22,13 @@ use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
-use crate::step::{Fem, Phase, Scene, Search, State, Stop, overlap};
+use crate::step::{Fem, Phase, Scene, Search, State, overlap};
 use crate::term::{
     BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
-    PressureField, SmoothPressure, Term, Traction,
+    PressureField, SmoothPressure, Term,
 };
 use crate::time_value::TimeValue;
+use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
 /// γ (-) of the ghost penalty: 1e-3 … 1 give the same results to the error of the grid.
@@ -104,6 +106,13 @@ impl Begin<'_> {
     /// What the run begins with, given the state before the first step.
     fn state(&self, case: &Case, scene: &Scene<2>, seeded: State<2>) -> Result<First<2>> {
         let after = match self.start {
+            Some(_) if !scene.loaded.is_empty() => {
+                return Err(Error::input(
+                    "start_from",
+                    "a force acts at a point of soil, and the other run did not follow the soil that was there as it began",
+                    "load a structure or finite elements, or put the phases into one case",
+                ));
+            }
             Some(start) => {
                 let begun = start.begun + usize::from(case.equilibrium);
                 Some(checkpoint::after_phase(start.read()?, scene, &seeded, begun)?)
@@ -220,14 +229,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         terms.push(Box::new(Inertia::<K>::default()));
     }
     terms.extend(water::terms::<K>(case, &mesh, size)?);
-    for (phase, traction) in case.phases.iter().enumerate().flat_map(|(i, p)| p.tractions.iter().map(move |t| (i, t))) {
-        if bodies[..structures].iter().any(|body| rigid::body_of(&mesh, body, &traction.curve)) {
-            continue;
-        }
-        let place = || format!("the traction on `{}` in phase `{}`", traction.curve, case.phases[phase].name);
-        let group = parts::material_curve(case, (&mesh, fem.as_ref()), &traction.curve, place)?;
-        terms.push(Box::new(Traction::<K, 2>::new(&mesh, group, phase, traction.components.clone())));
-    }
+    let [on_grid, on_elements] = curve_loads::terms::<K>(case, (&mesh, fem.as_ref()), &bodies[..structures])?;
+    terms.extend(on_grid);
 
     let fem = match fem {
         Some(part) => {
@@ -241,7 +244,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
                 terms.push(Box::new(Inertia::<K>::default()));
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
-            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size)?);
+            terms.extend(on_elements);
+            terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size));
+            for structure in bodies[..structures].iter().zip(0..) {
+                terms.extend(curve_loads::on_rigid::<K>(case, &part, structure)?);
+            }
             let carried = changes::ever(case, &part, |m| m.carried.is_some())?;
             let rigid = regions(case, &part, Content::is_rigid);
             let with = |r: usize| carried[r] && !rigid[r];
@@ -270,7 +277,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
+    let removals = (0..case.phases.len()).map(|number| removed::of_phase(case, &mesh, number)).collect();
+    let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
+    let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -286,10 +296,13 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         supports,
         begins: if case.equilibrium { -case.phases[0].duration } else { 0.0 },
         phases,
+        removals,
         traced,
+        loaded: loaded.into_iter().collect(),
         basis,
         numerics: case.numerics.solver.clone(),
         gravity: case.gravity,
+        strongest_gravity: strongest_gravity(case),
         stiffness_scale,
         density_scale,
     };
@@ -327,7 +340,14 @@ fn internal<K: Kinematics<2>>(
 }
 
 fn gravity<K>(case: &Case) -> BodyForce<K, 2> {
-    BodyForce::new(case.gravity, case.phases.iter().map(|p| p.gravity.clone()).collect())
+    BodyForce::new(case.phases.iter().map(|p| p.gravity.clone()).collect())
+}
+
+/// The largest acceleration of gravity (m/s²): that of the case, or of a phase with components of its own.
+fn strongest_gravity(case: &Case) -> f64 {
+    let own = case.phases.iter().filter(|phase| matches!(phase.gravity, Gravity::Components(_)));
+    let accelerations = own.flat_map(|phase| phase.gravity.extremes(phase.duration)).chain([case.gravity]);
+    accelerations.map(|[x, y]| x.hypot(y)).fold(0.0, f64::max)
 }
 
 fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Quadrature<2>>> {
@@ -365,9 +385,9 @@ fn phase(
     let loads: Vec<&TimeValue> = phase
         .tractions
         .iter()
-        .flat_map(|t| &t.components)
+        .flat_map(|t| t.values())
         .chain(water::values(case, number, phase))
-        .chain(std::iter::once(&phase.gravity))
+        .chain(phase.gravity.values())
         .chain(&phase.reduction)
         .collect();
     let values = phase.prescribed.iter().map(|p| &p.displacement).chain(loads.iter().copied());
@@ -387,54 +407,12 @@ fn phase(
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset_displacements: phase.reset_displacements,
-        stops: stops(phase.duration, every, values.flat_map(TimeValue::kinks)),
+        stops: stops::of(phase.duration, every, values.flat_map(TimeValue::kinks)),
     })
-}
-
-/// When steps must end: at outputs, where a table bends, and at the end of the phase.
-fn stops(duration: f64, every: Option<f64>, kinks: impl Iterator<Item = f64>) -> Vec<Stop> {
-    let tiny = 1e-9 * duration;
-    let mut stops = vec![Stop { time: duration, frame: true }];
-    if let Some(every) = every {
-        let count = ((duration - tiny) / every).floor() as usize;
-        stops.extend((1..=count).map(|k| Stop { time: k as f64 * every, frame: true }));
-    }
-    let kinks = kinks.filter(|&t| t > tiny && t < duration - tiny);
-    stops.extend(kinks.map(|time| Stop { time, frame: false }));
-    stops.sort_by(|a, b| a.time.total_cmp(&b.time));
-    // Of stops at a time one is enough, with a frame if one of them has.
-    stops.dedup_by(|later, kept| {
-        let same = later.time - kept.time <= tiny && !(later.frame && kept.frame);
-        if same && later.frame {
-            (kept.time, kept.frame) = (later.time, true);
-        }
-        same
-    });
-    stops
 }
 
 /// The model of each material by number.
 fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<std::sync::Arc<dyn crate::material::Model>>>> {
     let model = |m: &Material| Some(m.carried.as_ref().map_or(&m.model, |carried| &carried.model).clone());
     changes::by_number(case, mesh, model)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_stop_at_outputs_kinks_and_the_end() {
-        let stops = stops(1.0, Some(0.3), [0.0, 0.45, 0.6, 1.0].into_iter());
-        let expected = [(0.3, true), (0.45, false), (0.6, true), (0.9, true), (1.0, true)];
-        assert_eq!(stops.len(), expected.len());
-        for (stop, (time, frame)) in stops.iter().zip(expected) {
-            assert!((stop.time - time).abs() < 1e-12 && stop.frame == frame, "{stop:?}");
-        }
-    }
-
-    #[test]
-    fn an_output_interval_that_divides_the_duration_adds_no_sliver() {
-        assert_eq!(stops(1.0, Some(0.1), std::iter::empty()).len(), 10);
-    }
 }

@@ -231,7 +231,7 @@ fn differences(own: &Map<String, Value>, other: &Map<String, Value>) -> Vec<Issu
             "supports" => {
                 "make it as it is there; what is to be held or freed later is prescribed in phases, not supported"
             }
-            "gravity" => "make it as it is there; phases have a factor on it",
+            "gravity" => "make it as it is there; phases have a factor on it, or components of their own",
             _ => AS_THERE,
         };
         issues.extend(difference.map(|(path, how)| {

@@ -25,6 +25,8 @@ const STEEP: f64 = 1.0;
 const PERMEABLE: f64 = 10.0;
 /// Length (m) above that of all models.
 const LONGEST: f64 = 5e3;
+/// Horizontal acceleration over gravity (-) below which it is rather a coefficient.
+const WEAKEST: f64 = 0.03;
 
 /// A warning of each value in a case.
 pub(super) fn values(file: &CaseFile) -> Vec<String> {
@@ -48,7 +50,29 @@ pub(super) fn values(file: &CaseFile) -> Vec<String> {
         let y = file.gravity.y;
         found.push(warning("gravity.y", &format!("{y} m/s², which is upwards: y is up"), &format!("write `y: -{y}`")));
     }
+    let g = file.gravity.x.hypot(file.gravity.y);
+    for (i, phase) in file.phases.iter().enumerate() {
+        let Some(raw::PhaseGravity::Components(raw::Acceleration { x: Some(x), .. })) = &phase.gravity else {
+            continue;
+        };
+        let largest = largest(x, phase.duration);
+        if 0.0 < largest && largest < WEAKEST * g {
+            let problem = format!("at most {largest:.3} m/s², {:.4} of gravity", largest / g);
+            let remedy =
+                format!("components are accelerations: for a coefficient of {largest:.3} it is {:.3}", largest * g);
+            found.push(warning(&format!("phases[{i}].gravity.x"), &problem, &remedy));
+        }
+    }
     found
+}
+
+/// The largest size of a value in a phase of the given duration (s).
+fn largest(value: &raw::InTime, duration: f64) -> f64 {
+    match value {
+        raw::InTime::Constant(value) => value.abs(),
+        raw::InTime::Rate(rate) => (rate.rate * duration).abs(),
+        raw::InTime::Table(table) => table.table.iter().map(|[_, value]| value.abs()).fold(0.0, f64::max),
+    }
 }
 
 fn of_material(name: &str, material: &raw::Material, file: &CaseFile, is_soil: bool, found: &mut Vec<String>) {
@@ -169,6 +193,11 @@ mod tests {
             ),
             ("friction: 0.9", "friction: 20", "`phases[0].contacts.floor.friction` is 20"),
             ("y: -9.81", "y: 9.81", "`gravity.y` is 9.81 m/s², which is upwards: y is up; write `y: -9.81`"),
+            (
+                "step: {initial: 1}",
+                "step: {initial: 1}, gravity: {x: {rate: 0.1}}",
+                "`phases[0].gravity.x` is at most 0.100 m/s², 0.0102 of gravity; components are accelerations: for a coefficient of 0.100 it is",
+            ),
         ] {
             let [warning] = told(&[[entry, other]], 4.0).try_into().unwrap();
             assert!(warning.starts_with("warning: ") && warning.contains(said), "{warning}");
@@ -180,6 +209,8 @@ mod tests {
             ["friction: 30", "friction: 0.057"],
             ["friction: 0.36", "friction: 1"],
             ["friction: 0.36", "friction: 0"],
+            ["step: {initial: 1}", "step: {initial: 1}, gravity: {x: 0, y: -9.81}"],
+            ["step: {initial: 1}", "step: {initial: 1}, gravity: {x: {table: [[0, 0], [1, -0.981]]}}"],
         ] {
             assert_eq!(told(&[[entry, other]], 4.0), [""; 0], "{other}");
         }

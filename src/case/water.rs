@@ -2,7 +2,7 @@
 
 use super::changes;
 use super::check::Checker;
-use super::checked::{Case, Content, Phase, Pressure, SurfaceLoad, Water};
+use super::checked::{Case, Content, LoadProfile, Phase, SurfaceLoad, Water};
 use super::find::{mean_size, region_index, regions};
 use super::locate::{At, Path};
 use super::raw;
@@ -128,7 +128,7 @@ impl Water {
     }
 }
 
-impl Pressure {
+impl LoadProfile {
     /// The same over cells of the size `size` (m).
     pub fn head(&self, size: f64) -> Hydrostatic {
         let datum = TimeValue::Constant(self.datum);

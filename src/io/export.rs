@@ -50,6 +50,8 @@ pub struct Regions {
     pub resets: Vec<String>,
     /// The structures that are not there in a phase, by its name.
     pub absent: BTreeMap<String, Vec<u16>>,
+    /// Whether phases remove soil.
+    pub removes: bool,
     /// The number of the material that each region has in a phase, by its name.
     pub materials: BTreeMap<String, Vec<u16>>,
 }

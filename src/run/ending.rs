@@ -2,6 +2,7 @@
 
 use super::record::{self, Quantity, Watch};
 use crate::error::{Error, Kind, Result};
+use crate::gravity::Gravity;
 use crate::kinematics::Kinematics;
 use crate::step::{Controller, Phase, Report, Scene, Simulation, State, kink};
 use crate::time_value::TimeValue;
@@ -111,8 +112,14 @@ pub fn met<const D: usize>(
     let (share, most) = (100.0 * held, state.ramp.most());
     let next = if scene.phases.len() > state.phase + 1 { ", and comes on in the next" } else { "" };
     Some(format!(
-        "{note}; {share:.1} % of what was out of balance as it began, up to {most:.3e} kN at a node, is not released{next}"
+        "{note}; {share:.1} % of what was out of balance {}, up to {most:.3e} kN at a node, is not released{next}",
+        since(state)
     ))
+}
+
+/// When what is held came out of balance.
+fn since<const D: usize>(state: &State<D>) -> &'static str {
+    if state.ramp.from > 0.0 { "on a reset grid" } else { "as the phase began" }
 }
 
 /// Whether a step that failed hands over to dynamics.
@@ -220,8 +227,16 @@ pub fn in_time<const D: usize>(error: Error, scene: &Scene<D>, phase: &Phase, st
 fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<D>) -> Vec<String> {
     let (now, end) = (state.phase_time, phase.duration);
     let varies = |value: &TimeValue| !matches!(value, TimeValue::Constant(_)) && value.at(end) != 0.0;
-    let factors = scene.terms.iter().filter_map(|term| term.factor(state.phase)).filter(|value| varies(value));
-    let factors = factors.map(|value| format!("the gravity factor {:.4} of {:.4}", value.at(now), value.at(end)));
+    let gravity = scene.terms.iter().find_map(|term| term.gravity(state.phase));
+    let of_gravity = |d: usize, value: &TimeValue| match gravity {
+        Some(Gravity::Components(_)) => {
+            let axis = ["x", "y", "z"][d];
+            format!("a gravity of {:.4} of {:.4} m/s² in {axis}", value.at(now), value.at(end))
+        }
+        _ => format!("the gravity factor {:.4} of {:.4}", value.at(now), value.at(end)),
+    };
+    let values = gravity.iter().flat_map(|gravity| gravity.values()).enumerate();
+    let gravity = values.filter(|(_, value)| varies(value)).map(|(d, value)| of_gravity(d, value));
     let moved = phase.prescribed.iter().filter(|p| varies(&p.displacement)).map(|p| {
         let (now, end) = (p.displacement.at(now), p.displacement.at(end));
         match p.fixed.nodes.first().and_then(|&n| scene.turning(n)) {
@@ -232,7 +247,7 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     let reduction = phase.reduction.iter().filter(|value| varies(value));
     let reduction = reduction.map(|value| format!("strengths divided by {:.4} of {:.4}", value.at(now), value.at(end)));
     let held = state.ramp.share(now);
-    let released = (held > 0.0 && now > 0.0)
-        .then(|| format!("{:.1} % of what was out of balance as the phase began", 100.0 * (1.0 - held)));
-    factors.chain(moved).chain(reduction).chain(released).collect()
+    let released = (held > 0.0 && now > state.ramp.from)
+        .then(|| format!("{:.1} % of what was out of balance {}", 100.0 * (1.0 - held), since(state)));
+    gravity.chain(moved).chain(reduction).chain(released).collect()
 }

@@ -167,7 +167,7 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         bypassed.begin(scene, &simulation.state, outputs.surface.as_ref());
         if simulation.state.phase_time == 0.0 {
             jump::watch(scene, &mut simulation.state);
-            let begun = simulation.notes().and_then(|notes| {
+            let begun = simulation.begin_phase().and_then(|notes| {
                 stays = ending::is_met_at_first(until, &mut simulation)?;
                 Ok(notes)
             });

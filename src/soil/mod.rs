@@ -10,6 +10,7 @@
 
 mod fullness;
 mod origin;
+mod parting;
 mod polygon;
 mod recover;
 mod structures;
@@ -27,11 +28,12 @@ use fullness::Fullness;
 use origin::Origin;
 use polygon::{Corner, Polygon, WHOLE, place, positive, without};
 use rayon::prelude::*;
-use recover::{AtNode, Ground, Nodal};
+use recover::{AtNode, Ground, Nodal, Sizes};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::iter::once;
 
+pub use parting::Parting;
 pub use recover::Values;
 pub use structures::Structures;
 
@@ -87,6 +89,17 @@ impl Soil {
     pub fn new(mesh: Mesh<2>, seeded: &[bool]) -> Self {
         let around = Around::of(&mesh);
         Self { origin: Origin::new(mesh, seeded), around }
+    }
+
+    /// The soil of the regions that still have points, given where these were seeded (m); `None` where all have.
+    pub fn left(&self, origins: &[[f64; 2]]) -> Option<Self> {
+        let mesh = &self.origin.mesh;
+        let mut there = vec![false; mesh.regions.len()];
+        let regions =
+            origins.iter().filter_map(|x| self.origin.seeded_cell(x)).map(|(c, _)| mesh.cells.region[c as usize]);
+        regions.for_each(|region| there[region as usize] = true);
+        let goes = (0..mesh.cells.len()).any(|c| self.origin.is_seeded(c) && !there[mesh.cells.region[c] as usize]);
+        goes.then(|| Self::new(mesh.clone(), &there))
     }
 
     /// Where points with these displacements (m) were, when these were counted from a frame whose points were at `places`
@@ -172,20 +185,12 @@ impl Soil {
         let Ground { mesh, points, .. } = *ground;
         let of: Vec<f64> = points.origin.iter().flatten().copied().collect();
         let origins = Nodal::of(ground, None, Values { width: 2, of: &of });
-        let mut size = vec![(0.0, 0.0f64); mesh.nodes.len()];
-        for &c in ground.active {
-            let h = cell_size(mesh, c as usize) * std::f64::consts::FRAC_1_SQRT_2;
-            mesh.cells.nodes(c as usize).iter().for_each(|&n| {
-                let (sum, count) = &mut size[n as usize];
-                (*sum, *count) = (*sum + h, *count + 1.0);
-            });
-        }
+        let sizes = Sizes::new(ground);
         let level = |n: usize| {
-            let (sum, count) = size[n];
-            if count == 0.0 {
+            let h = sizes.of(n);
+            if h == 0.0 {
                 return (f64::NEG_INFINITY, Vec::new(), [f64::INFINITY; 2]);
             }
-            let h = sum / count;
             let by_fullness = (fullness.value[n] - 0.5) * h;
             let part = |k: usize| if regions.len() > 1 { (fullness.part[k][n] - 0.5) * h } else { 0.0 };
             let mut of_regions: Vec<f64> = (0..fullness.part.len()).map(part).collect();

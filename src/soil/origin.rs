@@ -1,6 +1,7 @@
 //! Where the soil was at first: the cells that were seeded, their outline, and what of them a place is in.
 
 use crate::geometry::{Bins, Line, nearest};
+use crate::mesh::faces::Face;
 use crate::mesh::locate::Locator;
 use crate::mesh::side::Side;
 use crate::mesh::{Mesh, cell_size};
@@ -40,6 +41,18 @@ impl Outline {
     }
 }
 
+/// The lines along a face: from node to node.
+fn along(mesh: &Mesh<2>, face: &Face) -> Vec<Line<2>> {
+    let cell = face.cells[0] as usize;
+    let nodes = mesh.cells.nodes(cell);
+    let (_, facets) = mesh.cells.kind[cell].facets();
+    // Both ends, then what is between them, from the first to the second.
+    let facet = facets[face.sides[0] as usize];
+    let places: Vec<[f64; 2]> =
+        facet[..1].iter().chain(&facet[2..]).chain(&facet[1..2]).map(|&i| mesh.nodes[nodes[i] as usize]).collect();
+    places.windows(2).map(|w| [w[0], w[1]]).collect()
+}
+
 /// The grid as it was seeded.
 pub struct Origin {
     pub mesh: Mesh<2>,
@@ -67,16 +80,7 @@ impl Origin {
         let mut between = vec![Vec::new(); mesh.regions.len()];
         for face in &faces.inner {
             let [a, b] = face.cells;
-            let lines = || {
-                let nodes = mesh.cells.nodes(a as usize);
-                let (_, facets) = mesh.cells.kind[a as usize].facets();
-                let at = |i: usize| mesh.nodes[nodes[i] as usize];
-                // Both ends, then what is between them, from the first to the second.
-                let facet = facets[face.sides[0] as usize];
-                let along: Vec<[f64; 2]> =
-                    facet[..1].iter().chain(&facet[2..]).chain(&facet[1..2]).map(|&i| at(i)).collect();
-                along.windows(2).map(|w| [w[0], w[1]]).collect::<Vec<Line<2>>>()
-            };
+            let lines = || along(&mesh, face);
             match (is_soil(a), is_soil(b)) {
                 (true, true) if region(a) != region(b) => {
                     [a, b].iter().for_each(|&c| between[region(c) as usize].extend(lines()));
@@ -97,6 +101,16 @@ impl Origin {
             locator,
             mesh,
         }
+    }
+
+    /// The lines between cells that are `apart`.
+    pub fn lines(&self, apart: impl Fn(u32, u32) -> bool) -> impl Iterator<Item = Line<2>> {
+        let inner = self.locator.faces.inner.iter().filter(move |face| apart(face.cells[0], face.cells[1]));
+        inner.flat_map(|face| along(&self.mesh, face))
+    }
+
+    pub fn is_seeded(&self, c: usize) -> bool {
+        self.seeded[c]
     }
 
     /// The cell that a place was in, or one beside which it was a little outside the grid.

@@ -4,7 +4,7 @@
 //! ([`Fit`]); what the cells with points of the region say of a node is averaged, and where there is none of them what the cells
 //! beside them say.
 
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, cell_size};
 use crate::points::Points;
 use crate::quadrature::{Around, Fit, Held, Place, Rings};
 use crate::surface::CellFrame;
@@ -25,6 +25,29 @@ pub struct Ground<'a> {
     pub held: &'a Held,
     /// Cells with points, and those that share a corner with one.
     pub active: &'a [u32],
+}
+
+/// The mean size of the cells around each node.
+pub struct Sizes(Vec<(f64, f64)>);
+
+impl Sizes {
+    pub fn new(ground: &Ground) -> Self {
+        let mut size = vec![(0.0, 0.0f64); ground.mesh.nodes.len()];
+        for &c in ground.active {
+            let h = cell_size(ground.mesh, c as usize) * std::f64::consts::FRAC_1_SQRT_2;
+            ground.mesh.cells.nodes(c as usize).iter().for_each(|&n| {
+                let (sum, count) = &mut size[n as usize];
+                (*sum, *count) = (*sum + h, *count + 1.0);
+            });
+        }
+        Self(size)
+    }
+
+    /// That at node `n` (m); 0 where there is none.
+    pub fn of(&self, n: usize) -> f64 {
+        let (sum, count) = self.0[n];
+        sum / count.max(1.0)
+    }
 }
 
 /// Linear functions over a cell.

@@ -14,6 +14,7 @@ use super::restore::{begin_anew, fill, take_weights};
 use super::scalars::{Carrier, Scalars};
 use super::scene::{Fixed, Prescribed, Restore, Scene};
 use super::state::State;
+use super::traced::Shares;
 use super::unknowns::Buffers;
 use crate::dofs::DofMap;
 use crate::error::Result;
@@ -35,6 +36,8 @@ pub struct Grid<const D: usize> {
     pub ghost: Vec<GhostFace>,
     /// The constraints of the contact nodes that face soil or another body.
     pub constraints: Vec<PlacedConstraint<D>>,
+    /// Where the material of point loads is, as [`Frame::loaded`].
+    pub loaded: Vec<(u32, Shares)>,
     /// The parts of the boundary of the material that no structure covers; absent where all of it is open or no term needs it.
     pub open: Option<Vec<Piece>>,
     /// The coupling of each contact node of each interface that the system has room for, else `u32::MAX`.
@@ -169,7 +172,8 @@ impl<const D: usize> Grid<D> {
             }));
             Scalars::new(&families, node.len(), &connectivity, places.end(with_water))
         });
-        let symmetric = scene.basis.is_symmetric() && scene.terms.iter().all(|t| t.symmetric());
+        let of_elements = scene.fem.iter().flat_map(|fem| &fem.terms);
+        let symmetric = scene.basis.is_symmetric() && scene.terms.iter().chain(of_elements).all(|t| t.symmetric());
         let mut sizes = vec![D as u8; node.len()];
         let (motion, pressure) = match with_pressure {
             None => (System::new(&sizes, connectivity, symmetric, &coordinates)?, Vec::new()),
@@ -187,6 +191,7 @@ impl<const D: usize> Grid<D> {
             elements,
             ghost: Vec::new(),
             constraints: Vec::new(),
+            loaded: Vec::new(),
             open: None,
             constraint_coupling,
             face_coupling,
@@ -258,6 +263,7 @@ impl<const D: usize> Grid<D> {
             partly_filled: &state.weights.partly_filled,
             ghost: &self.ghost,
             constraints: &self.constraints,
+            loaded: &self.loaded,
             boundary: &state.weights.boundary.pieces,
             open: self.open.as_deref().unwrap_or(&state.weights.boundary.pieces),
             level_set: &state.weights.level_set,
@@ -299,6 +305,7 @@ impl<const D: usize> Grid<D> {
             partly_filled: &[],
             ghost: &[],
             constraints: &[],
+            loaded: &[],
             boundary: &[],
             open: &[],
             level_set: &[],

@@ -36,6 +36,7 @@ mod pressure;
 mod problem;
 mod ramp;
 mod relax;
+mod removal;
 mod report;
 mod restore;
 mod rigid;
@@ -60,7 +61,9 @@ pub use grid::Grid;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
-pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, StepSize, Stop, Water};
+pub use scene::{
+    FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Removal, Restore, Scene, Search, StepSize, Stop, Water,
+};
 pub use search::kink;
 pub use state::{Span, State};
 pub use water::Balance;
@@ -115,15 +118,20 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(Self { scene, state, grid, kinematics: PhantomData })
     }
 
-    /// Notes on the phase that begins: materials that change in it, prescribed displacements and loads that act on no material.
+    /// Begins a phase: removes the soil that goes. Returns notes on it: materials that change in it, prescribed displacements and loads that act on no
+    /// material.
     ///
     /// # Errors
     /// When memory does not suffice, and where a structure comes back into soil.
-    pub fn notes(&mut self) -> Result<Vec<String>> {
+    pub fn begin_phase(&mut self) -> Result<Vec<String>> {
         let Some(phase) = self.scene.phases.get(self.state.phase) else { return Ok(Vec::new()) };
+        if removal::remove::<D, K>(self.scene, &mut self.grid, &mut self.state)? {
+            self.initialise(false)?;
+            removal::hold(self.scene, &mut self.grid, &mut self.state)?;
+        }
         overlap::on_return(self.scene, &self.state)?;
         if self.scene.terms.iter().any(|term| term.sees_open_boundary()) {
-            match contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state) {
+            match self.find_loads_and_contacts() {
                 // The next step reports an error of the analysis.
                 Err(error) if error.kind != Kind::Analysis => return Err(error),
                 _ => {}
@@ -158,7 +166,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         if !self.scene.phases.get(self.state.phase).is_some_and(|phase| phase.dynamic) {
             return Ok(false);
         }
-        let found = contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state)
+        let found = self
+            .find_loads_and_contacts()
             .and_then(|()| unbalanced::stays_at_rest(self.scene, &mut self.grid, &self.state, [part, kinetic]));
         match found {
             // The next step reports an error of the analysis.
@@ -249,7 +258,8 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             self.grid.restore::<K>(scene, state)?;
         }
         materials::project_pressure::<D, K>(scene, &self.grid, state);
-        timed(Activity::Contact, || contact::begin::<D, K>(scene, &mut self.grid, state))?;
+        self.find_loads_and_contacts()?;
+        let (scene, state) = (self.scene, &mut self.state);
         let begins = state.dynamic(scene) && !state.moving;
         if state.dynamic(scene) && (restore || !state.moving) {
             transfer::motion_to_grid::<D, K>(scene, &mut self.grid, state)?;
@@ -265,6 +275,12 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             work::note(scene, &mut self.grid, state, Item::Equilibration)?;
         }
         Ok(Begun { fresh: restore || !moved || held || scene.numerics.restore == Restore::Never, unbalanced })
+    }
+
+    /// Finds on the grid what a step depends on and the converged state alone tells: the material that forces act on, and the contacts.
+    fn find_loads_and_contacts(&mut self) -> Result<()> {
+        self.grid.loaded = traced::loaded(self.scene, &self.state);
+        timed(Activity::Contact, || contact::begin::<D, K>(self.scene, &mut self.grid, &mut self.state))
     }
 
     /// Solves the step on the grid (eq. 1; with inertia eq. 6).

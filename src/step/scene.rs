@@ -6,7 +6,7 @@ use crate::dofs::{Places, RigidDofs};
 use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::quadrature::Quadrature;
+use crate::quadrature::{Parting, Quadrature};
 use crate::rigid::Body;
 use crate::system::LinearConstraints;
 use crate::term::{MixedPressure, Porous, Term, WaterLevels};
@@ -40,13 +40,19 @@ pub struct Scene<const D: usize> {
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
     pub phases: Vec<Phase>,
+    /// The soil that each phase removes as it begins.
+    pub removals: Vec<Option<Removal<D>>>,
     /// Time (s) at which the run begins: 0, or less where its first phase comes before those of the user.
     pub begins: f64,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.
     pub traced: Vec<u32>,
+    /// Those of them at whose material forces act.
+    pub loaded: Vec<u32>,
     pub numerics: Numerics,
     /// Acceleration of gravity (m/s²), for the energies in the log.
     pub gravity: [f64; D],
+    /// The largest (m/s²) that a phase has.
+    pub strongest_gravity: f64,
     /// Largest confined modulus λ + 2G (kPa) and density (t/m³) of the scene: rounding is measured by the
     /// first, the spread of the motion over empty nodes by the second.
     pub stiffness_scale: f64,
@@ -258,6 +264,14 @@ impl Phase {
         let moves = |p: &Prescribed| self.times().any(|time| p.displacement.at(time) != 0.0);
         self.prescribed.iter().filter(move |p| p.fixed.nodes.iter().all(|&n| (n as usize) < end) && moves(p))
     }
+}
+
+/// The soil that a phase removes.
+pub struct Removal<const D: usize> {
+    /// Whether each region goes.
+    pub regions: Vec<bool>,
+    /// Where the rest ends.
+    pub parting: Box<dyn Parting<D>>,
 }
 
 /// How far soil may move without inertia (-), over its height: farther counts as failure in a strength reduction, and gives a warning

@@ -20,7 +20,7 @@ use crate::term::{Dissipated, Source, Term, Works};
 
 /// The kinetic energy (kJ) of a mass (t) that falls freely for a time (s).
 pub fn energy_of_fall<const D: usize>(scene: &Scene<D>, mass: f64, time: f64) -> f64 {
-    0.5 * mass * time * time * scene.gravity.iter().map(|g| g * g).sum::<f64>()
+    0.5 * mass * (time * scene.strongest_gravity).powi(2)
 }
 
 /// What is held (kJ): the kinetic energy of the nodes, and what the integration points and finite elements store.

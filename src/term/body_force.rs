@@ -1,28 +1,26 @@
-//! Weight of the material: `−Σ_q ρ_q w_q N_I g`, times a load factor in the phase's time, summed over the points that the internal force is summed over.
+//! Weight of the material: `−Σ_q ρ_q w_q N_I g`, `g` in the phase's time, summed over the points that the internal force is summed over.
 //!
 //! It has the same points and weights as the internal force, so that errors of the quadrature cancel in equilibrium.
 
 use super::{Assembly, Frame, Role, Source, Term, Trial, scatter_cells};
 use crate::error::Result;
+use crate::gravity::Gravity;
 use crate::interpolation::CellPoints;
 use crate::kinematics::Kinematics;
 use crate::system::Local;
-use crate::time_value::TimeValue;
 use std::marker::PhantomData;
 
 /// Gravity on the material.
 pub struct BodyForce<K, const D: usize> {
-    /// Acceleration of gravity (m/s²).
-    gravity: [f64; D],
-    /// The factor on it in each phase.
-    factors: Vec<TimeValue>,
+    /// That of each phase.
+    gravity: Vec<Gravity<D>>,
     kinematics: PhantomData<K>,
 }
 
 impl<K, const D: usize> BodyForce<K, D> {
-    /// `factors[i]` scales `gravity` in phase `i`.
-    pub fn new(gravity: [f64; D], factors: Vec<TimeValue>) -> Self {
-        Self { gravity, factors, kinematics: PhantomData }
+    /// `gravity[i]` acts in phase `i`.
+    pub fn new(gravity: Vec<Gravity<D>>) -> Self {
+        Self { gravity, kinematics: PhantomData }
     }
 }
 
@@ -35,13 +33,12 @@ impl<const D: usize, K: Kinematics<D>> Term<D> for BodyForce<K, D> {
         Role::External
     }
 
-    fn factor(&self, phase: usize) -> Option<&TimeValue> {
-        self.factors.get(phase)
+    fn gravity(&self, phase: usize) -> Option<&Gravity<D>> {
+        self.gravity.get(phase)
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let factor = self.factors[trial.phase].at(trial.time);
-        let load = self.gravity.map(|g| -factor * g);
+        let load = self.gravity[trial.phase].at(trial.time).map(|g| -g);
         scatter_cells(
             frame,
             |cell_points: &CellPoints, local: &mut Local| {

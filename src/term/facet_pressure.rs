@@ -1,8 +1,8 @@
-//! A pressure on the boundary of finite elements: `−∫ p N_I n dS` over their facets where they are in the trial state.
+//! A pressure on the boundary of finite elements, or on a curve: `−∫ p N_I n dS` over facets where they are in the trial state.
 //!
-//! Facets where they meet the grid are among them: what the points there take of the pressure cancels with it. Between
-//! the heights where the pressure bends the integral is exact for straight facets. The boundary is closed, so that the
-//! pressure has a potential, and the sum of the unsymmetric parts of the tangent is symmetric.
+//! Facets where finite elements meet the grid are among those of water: what the points there take of the pressure cancels with it. Between
+//! the heights where the pressure bends the integral is exact for straight facets. Their boundary is closed, so that the pressure of water has a
+//! potential, and the sum of the unsymmetric parts of the tangent is symmetric. That of a load on a curve with ends is not.
 
 use super::hydrostatic::{Hydrostatic, Momentary};
 use super::{Assembly, Frame, Role, Source, Term, Trial};
@@ -15,19 +15,25 @@ use crate::system::Local;
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
 
-/// A pressure on the boundary of the finite elements of a mesh.
+/// A pressure on facets of the cells of a mesh.
 pub struct FacetPressure<K> {
     heads: Vec<Option<Hydrostatic>>,
     /// Cell and side of each facet.
     facets: Vec<(u32, u8)>,
+    source: Source,
     kinematics: PhantomData<K>,
 }
 
 impl<K> FacetPressure<K> {
-    /// `heads[i]` acts in phase `i` on the boundary of the cells of `mesh` in which `loaded` holds.
+    /// Water: `heads[i]` acts in phase `i` on the boundary of the cells of `mesh` in which `loaded` holds.
     pub fn new(mesh: &Mesh<2>, loaded: impl Fn(usize) -> bool, heads: Vec<Option<Hydrostatic>>) -> Self {
         let facets = Faces::of(mesh).boundary.into_iter().filter(|&(c, _)| loaded(c as usize)).collect();
-        Self { heads, facets, kinematics: PhantomData }
+        Self { heads, facets, source: Source::Water, kinematics: PhantomData }
+    }
+
+    /// A load: `heads[i]` acts in phase `i` on `facets`, by their cells and sides.
+    pub fn on(facets: Vec<(u32, u8)>, heads: Vec<Option<Hydrostatic>>) -> Self {
+        Self { heads, facets, source: Source::Load, kinematics: PhantomData }
     }
 }
 
@@ -41,16 +47,14 @@ pub struct Place {
     pub weight: f64,
 }
 
-/// Calls `action` at the places of a rule for the facet with nodes at `x` (ends, then middle), cut at the heights
-/// `breaks`.
-pub fn integrate(x: &[[f64; 2]], breaks: &[f64], mut action: impl FnMut(&Place)) {
-    let kind = if x.len() == 3 { CellKind::Line3 } else { CellKind::Line2 };
+/// Where a line with the given heights (m) of its nodes (ends, then middle) crosses the heights `breaks`: ascending parameters from −1 to 1.
+pub fn spans(heights: &[f64], breaks: &[f64]) -> Vec<f64> {
     let mut ends = vec![-1.0, 1.0];
     // y(s) = a + b s + c s².
-    let (b, c, a) = match *x {
-        [p, q, m] => (0.5 * (q[1] - p[1]), 0.5 * (p[1] + q[1]) - m[1], m[1]),
-        [p, q] => (0.5 * (q[1] - p[1]), 0.0, 0.5 * (p[1] + q[1])),
-        _ => return,
+    let (b, c, a) = match *heights {
+        [p, q, m] => (0.5 * (q - p), 0.5 * (p + q) - m, m),
+        [p, q] => (0.5 * (q - p), 0.0, 0.5 * (p + q)),
+        _ => return ends,
     };
     for &height in breaks {
         let root = (b * b - 4.0 * c * (a - height)).max(0.0).sqrt();
@@ -58,6 +62,16 @@ pub fn integrate(x: &[[f64; 2]], breaks: &[f64], mut action: impl FnMut(&Place))
         ends.extend([q / c, (a - height) / q].into_iter().filter(|s| s.abs() < 1.0));
     }
     ends.sort_by(f64::total_cmp);
+    ends
+}
+
+/// Calls `action` at the places of a rule for the facet with nodes at `x` (ends, then middle), cut at the heights
+/// `breaks`.
+pub fn integrate(x: &[[f64; 2]], breaks: &[f64], mut action: impl FnMut(&Place)) {
+    let kind = if x.len() == 3 { CellKind::Line3 } else { CellKind::Line2 };
+    let mut heights = [0.0; 3];
+    heights.iter_mut().zip(x).for_each(|(y, x)| *y = x[1]);
+    let ends = spans(&heights[..x.len()], breaks);
     let mut derivatives = [[0.0; 3]; MAX_NODES];
     for piece in ends.windows(2).filter(|piece| piece[1] > piece[0]) {
         let (middle, half) = (0.5 * (piece[0] + piece[1]), 0.5 * (piece[1] - piece[0]));
@@ -111,7 +125,11 @@ fn add<K: Kinematics<2>>(head: &Momentary, x: &[[f64; 2]], at: &[usize], share: 
 
 impl<K: Kinematics<2>> Term<2> for FacetPressure<K> {
     fn source(&self) -> Source {
-        Source::Water
+        self.source
+    }
+
+    fn symmetric(&self) -> bool {
+        self.source == Source::Water
     }
 
     fn role(&self) -> Role {

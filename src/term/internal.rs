@@ -27,7 +27,7 @@ use super::volume::VolumeFit;
 use super::{Assembly, Dissipated, Frame, Histories, History, Term, Trial, Update};
 use super::{Mixed, Ratios};
 use crate::error::{Error, Result};
-use crate::interpolation::{CellPoints, Entries, MAX_FUNCTIONS};
+use crate::interpolation::{CellPoints, Entries, Interpolation, MAX_FUNCTIONS};
 use crate::kinematics::{Gradient, Kinematics};
 use crate::material::spatial::Spatial;
 use crate::material::{Model, State, internal_count};
@@ -42,6 +42,9 @@ use std::borrow::Cow;
 use std::marker::PhantomData;
 use std::sync::Arc;
 use strain::{Ends, Strained, inadmissible, metric_factor, moved_nodes, strain};
+
+/// The least part (-) of the volume of the material points in a cell that its integration points stand for, if they resist a change of that volume.
+const RESISTS: f64 = 0.5;
 
 /// The internal force of all material points.
 pub struct Internal<K, S = ()> {
@@ -225,6 +228,12 @@ impl<K, S> Internal<K, S> {
     }
 }
 
+/// The volume (m³) of the points of a cell.
+fn filled<const D: usize>(interpolation: &Interpolation<D>, cell_points: &CellPoints, points: &Points<D>) -> f64 {
+    let of_cell = &interpolation.points[cell_points.first_point as usize..][..cell_points.point_count as usize];
+    of_cell.iter().map(|&p| points.volume(p as usize)).sum()
+}
+
 impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S> {
     fn symmetric(&self) -> bool {
         !self.dynamic && self.models.iter().flatten().all(|m| m.symmetric())
@@ -342,8 +351,12 @@ impl<const D: usize, K: Kinematics<D>, S: Mixed<D, K>> Term<D> for Internal<K, S
             let held = trial.geometry.map(|u| frame.interpolation.gather(frame.mesh, cell_points, u));
             let ends = Ends { now: &now, before: Some(&before), held: held.as_deref().map(moved_nodes) };
             let cell = self.share.over(frame, trial, cell_points);
+            let held = filled(frame.interpolation, cell_points, frame.points);
             let volume = frame.integration.map(|(interpolation, points)| {
                 let cell_points = interpolation.of_cell(cell_points.cell)?;
+                if filled(interpolation, cell_points, points) < RESISTS * held {
+                    return None;
+                }
                 let [now, before] =
                     [trial.displacement, trial.converged].map(|u| interpolation.gather(frame.mesh, cell_points, u));
                 let held = trial.geometry.map(|u| interpolation.gather(frame.mesh, cell_points, u));

@@ -62,13 +62,13 @@ pub use water_levels::WaterLevels;
 use crate::contact::Constraint;
 use crate::dofs::Places;
 use crate::error::Result;
+use crate::gravity::Gravity;
 use crate::interpolation::{CellPoints, Interpolation, PartlyFilled};
 use crate::mesh::Mesh;
 use crate::mesh::faces::Face;
 use crate::points::Points;
 use crate::surface::Piece;
 use crate::system::{LinearConstraints, Local, Matrix, Pattern, Workspace, scatter};
-use crate::time_value::TimeValue;
 
 /// A face between two cells that takes a ghost penalty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,6 +115,8 @@ pub struct Frame<'a, const D: usize> {
     pub ghost: &'a [GhostFace],
     /// The contact nodes that face something; empty where the scene has no contact.
     pub constraints: &'a [PlacedConstraint<D>],
+    /// The nodes at whose material of the first state forces act, where this is not at them any more: the nodes of its cell with their shares (-).
+    pub loaded: &'a [(u32, Vec<(u32, f64)>)],
     /// The pieces of the boundary of the material; empty where the scene has no use for them.
     pub boundary: &'a [Piece],
     /// The parts of these that no structure covers as the step begins.
@@ -310,8 +312,8 @@ pub trait Term<const D: usize>: Send + Sync {
         }
     }
 
-    /// The factor on the load of the term in a phase, if it has one.
-    fn factor(&self, _phase: usize) -> Option<&TimeValue> {
+    /// Gravity in a phase, if the term is its.
+    fn gravity(&self, _phase: usize) -> Option<&Gravity<D>> {
         None
     }
 

@@ -5,6 +5,7 @@
 
 use super::{Assembly, Frame, Role, Source, Term, Trial};
 use crate::error::Result;
+use crate::gravity::Gravity;
 use crate::rigid::Body;
 use crate::time_value::TimeValue;
 
@@ -16,18 +17,19 @@ fn add<const D: usize>(frame: &Frame<D>, n: u32, force: &[f64; D], out: &mut Ass
     }
 }
 
-/// Gravity on a body, times a factor in the phase's time.
+/// Gravity on a body.
 pub struct RigidWeight<const D: usize> {
     translation: u32,
-    /// Weight (kN).
-    weight: [f64; D],
-    factors: Vec<TimeValue>,
+    /// Mass (t).
+    mass: f64,
+    /// That of each phase.
+    gravity: Vec<Gravity<D>>,
 }
 
 impl<const D: usize> RigidWeight<D> {
-    /// `factors[i]` scales `gravity` (m/s²) in phase `i`.
-    pub fn new(body: &Body<D>, gravity: [f64; D], factors: Vec<TimeValue>) -> Self {
-        Self { translation: body.dofs.translation, weight: gravity.map(|g| body.mass * g), factors }
+    /// `gravity[i]` acts in phase `i`.
+    pub fn new(body: &Body<D>, gravity: Vec<Gravity<D>>) -> Self {
+        Self { translation: body.dofs.translation, mass: body.mass, gravity }
     }
 }
 
@@ -41,8 +43,8 @@ impl<const D: usize> Term<D> for RigidWeight<D> {
     }
 
     fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
-        let factor = self.factors[trial.phase].at(trial.time);
-        add(frame, self.translation, &self.weight.map(|w| -factor * w), out);
+        let gravity = self.gravity[trial.phase].at(trial.time);
+        add(frame, self.translation, &gravity.map(|g| -self.mass * g), out);
         Ok(())
     }
 }

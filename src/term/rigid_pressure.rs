@@ -1,6 +1,8 @@
-//! The pressure of water on a rigid body: `−∫ p n dS` over its boundary in the trial pose, and the moment of that about the reference point.
+//! The pressure of water, or of a load on a curve, on a rigid body: `−∫ p n dS` over its boundary or a part of it in the trial pose, and the moment
+//! of that about the reference point.
 //!
-//! The boundary turns with the body, its normals too. It is closed, so that the pressure has a potential and the tangent is symmetric.
+//! The boundary turns with the body, its normals too. It is closed, so that water has a potential and its tangent is symmetric; that of a load on
+//! a curve is not.
 
 use super::facet_pressure::integrate;
 use super::hydrostatic::Hydrostatic;
@@ -18,7 +20,7 @@ use std::marker::PhantomData;
 /// The nodes (m) of a facet, ends and then the middle, and how many there are.
 type Facet = ([[f64; 2]; 3], usize);
 
-/// Water on a rigid body.
+/// A pressure on a rigid body.
 pub struct RigidPressure<K> {
     body: Body<2>,
     /// Its number in the scene.
@@ -26,24 +28,36 @@ pub struct RigidPressure<K> {
     heads: Vec<Option<Hydrostatic>>,
     /// The boundary when the run began, from the reference point.
     facets: Vec<Facet>,
+    source: Source,
     kinematics: PhantomData<K>,
 }
 
 impl<K> RigidPressure<K> {
-    /// `heads[i]` acts in phase `i` on the body with that `number` in the scene, whose cells are in `mesh` as the run begins.
+    /// Water: `heads[i]` acts in phase `i` on the body with that `number` in the scene, whose cells are in `mesh` as the run begins.
     pub fn new(body: &Body<2>, number: usize, mesh: &Mesh<2>, heads: Vec<Option<Hydrostatic>>) -> Self {
         let own = mesh.part(|c| mesh.cells.region[c] == body.region);
-        let facet = |(c, side): (u32, u8)| {
-            let nodes = own.cells.nodes(c as usize);
-            let of_facet = own.cells.kind[c as usize].facets().1[side as usize];
+        let of_water = Self::on((body, number), &own, &Faces::of(&own).boundary, heads);
+        Self { source: Source::Water, ..of_water }
+    }
+
+    /// A load: `heads[i]` acts in phase `i` on `facets` of `mesh`, by their cells and sides, which are those of the body with that number.
+    pub fn on(
+        (body, number): (&Body<2>, usize),
+        mesh: &Mesh<2>,
+        facets: &[(u32, u8)],
+        heads: Vec<Option<Hydrostatic>>,
+    ) -> Self {
+        let facet = |&(c, side): &(u32, u8)| {
+            let nodes = mesh.cells.nodes(c as usize);
+            let of_facet = mesh.cells.kind[c as usize].facets().1[side as usize];
             let mut x = [[0.0; 2]; 3];
             for (x, &i) in x.iter_mut().zip(of_facet) {
-                *x = [0, 1].map(|d| own.nodes[nodes[i] as usize][d] - body.centre[d]);
+                *x = [0, 1].map(|d| mesh.nodes[nodes[i] as usize][d] - body.centre[d]);
             }
             (x, of_facet.len())
         };
-        let facets = Faces::of(&own).boundary.into_iter().map(facet).collect();
-        Self { body: body.clone(), number, heads, facets, kinematics: PhantomData }
+        let facets = facets.iter().map(facet).collect();
+        Self { body: body.clone(), number, heads, facets, source: Source::Load, kinematics: PhantomData }
     }
 }
 
@@ -99,7 +113,11 @@ impl<K: Kinematics<2>> RigidPressure<K> {
 
 impl<K: Kinematics<2>> Term<2> for RigidPressure<K> {
     fn source(&self) -> Source {
-        Source::Water
+        self.source
+    }
+
+    fn symmetric(&self) -> bool {
+        self.source == Source::Water
     }
 
     fn role(&self) -> Role {

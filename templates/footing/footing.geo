@@ -2,7 +2,7 @@
 //
 //   footing
 //  +-------+           air
-//  +-------+---------------------------+ 0        regions  soil, air, footing
+//  +-------+---------------------------+ 0        regions  soil, air, footing; point  top_edge (of the footing)
 //  |                                   |          curves   axis, side, bottom
 //  | axis         soil                 | side
 //  |                                   |
@@ -86,3 +86,4 @@ Physical Surface("footing") = {3};
 Physical Curve("axis") = {4, 7};
 Physical Curve("side") = {2, 5};
 Physical Curve("bottom") = {1};
+Physical Point("top_edge") = {13};

@@ -11,6 +11,7 @@ const LAYERS: [&[&str]; 7] = [
     &[
         "error",
         "geometry",
+        "gravity",
         "machine",
         "profile",
         "program",

@@ -145,7 +145,7 @@ fn what_cannot_be_borne_at_once_is_released_by_halved_steps() {
     // What ends before all is released says so.
     let (_, log) = with("-46", 1.0, ", until: [{of: plate, quantity: uy, below: -0.002}]");
     assert!(
-        log.contains("% of what was out of balance as it began, up to") && log.contains("is not released\n"),
+        log.contains("% of what was out of balance as the phase began, up to") && log.contains("is not released\n"),
         "{log}"
     );
 }

@@ -212,7 +212,7 @@ impl Ready {
         let mut controller = Controller::new(phase.step, phase.stops.clone(), state.step_size.min(phase.step.max));
         let mut simulation = Simulation::<2, K>::new(&self.scene, state)?;
         if simulation.state.phase_time == 0.0 {
-            simulation.notes()?;
+            simulation.begin_phase()?;
         }
         simulation.advance(&mut controller)?;
         let mut state = simulation.state;

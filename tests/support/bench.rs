@@ -2,6 +2,7 @@
 
 use crate::support::layout::add_point;
 use mpm::case::parts::places;
+use mpm::gravity::Gravity;
 use mpm::interpolation::{Basis, Mpm};
 use mpm::kinematics::Kinematics;
 use mpm::material::{Model, Profile};
@@ -143,6 +144,8 @@ impl Bench {
     }
 
     pub fn scene<K: Kinematics<2>>(self) -> Scene<2> {
+        let whole = self.gravity;
+        let gravity = || vec![Gravity::Scaled { whole, factor: self.gravity_factor.clone() }];
         let elements = self.mesh.part(|c| self.is_element(c));
         let background = self.background();
         let fem = (!elements.cells.is_empty()).then(|| {
@@ -157,7 +160,7 @@ impl Bench {
                 }
             };
             if self.gravity != [0.0; 2] {
-                terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor.clone()])));
+                terms.push(Box::new(BodyForce::<K, 2>::new(gravity())));
             }
             if self.dynamic {
                 terms.push(Box::new(Inertia::<K>::default()));
@@ -201,7 +204,7 @@ impl Bench {
             terms.push(Box::new(PoreStabilisation::<K>::new(vec![self.porous.clone()], of_unit, shear, cells)));
         }
         if self.gravity != [0.0; 2] {
-            terms.push(Box::new(BodyForce::<K, 2>::new(self.gravity, vec![self.gravity_factor])));
+            terms.push(Box::new(BodyForce::<K, 2>::new(gravity())));
         }
         if self.restore != Restore::Never {
             terms.push(Box::new(EmptyCells::<K>::new(1e-5 * stiffness_scale, background.cells.len())));
@@ -225,6 +228,8 @@ impl Bench {
             water,
             supports: self.supports,
             traced: Vec::new(),
+            removals: Vec::new(),
+            loaded: Vec::new(),
             begins: 0.0,
             phases: vec![Phase {
                 name: "test".into(),
@@ -252,6 +257,7 @@ impl Bench {
                 max_iterations: 25,
             },
             gravity: self.gravity,
+            strongest_gravity: self.gravity[0].hypot(self.gravity[1]),
             stiffness_scale,
             density_scale: self.density,
         }

@@ -180,8 +180,10 @@ impl<K: Kinematics<2>> Stand<K> {
             water,
             supports: Vec::new(),
             traced: Vec::new(),
+            loaded: Vec::new(),
             begins: 0.0,
             phases: vec![phase.clone(), phase],
+            removals: Vec::new(),
             basis: scheme,
             numerics: Numerics {
                 restore: if restored { Restore::EveryStep } else { Restore::Never },
@@ -191,6 +193,7 @@ impl<K: Kinematics<2>> Stand<K> {
                 max_iterations: 25,
             },
             gravity: [0.0; 2],
+            strongest_gravity: 0.0,
             stiffness_scale: 1.0,
             density_scale: 1.0,
         };

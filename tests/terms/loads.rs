@@ -2,13 +2,15 @@
 
 use crate::support::stand::{Field, KINDS, Stand, mesh, points, resultant, size};
 use crate::terms::ghost;
+use mpm::gravity::Gravity;
 use mpm::interpolation::Ddmp;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::Mesh;
+use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
 use mpm::surface::{ActiveBoundary, Path, Piece};
 use mpm::term::{BodyForce, EmptyCells, FacetPressure, Hydrostatic, Inertia, Phreatic, Role, Term, Traction};
-use mpm::term::{SurfaceLoad, SurfaceTraction, VirtualPressure};
+use mpm::term::{Source, SurfaceLoad, SurfaceTraction, VirtualPressure};
 use mpm::time_value::TimeValue;
 use mpm::water_table::WaterLine;
 use std::f64::consts::{PI, TAU};
@@ -22,8 +24,9 @@ fn traction<K: Kinematics<2>>(mesh: &Mesh<2>, group: &str) -> Box<dyn Term<2>> {
 }
 
 fn body_force<K: Kinematics<2>>(_: &Mesh<2>) -> Box<dyn Term<2>> {
-    let factors = vec![TimeValue::Rate(1.5), TimeValue::Constant(0.0)];
-    Box::new(BodyForce::<K, 2>::new([0.5, -10.0], factors))
+    let factors = [TimeValue::Rate(1.5), TimeValue::Constant(0.0)];
+    let gravity = factors.map(|factor| Gravity::Scaled { whole: [0.5, -10.0], factor });
+    Box::new(BodyForce::<K, 2>::new(gravity.to_vec()))
 }
 
 /// The points fill every third cell, so that there are soft ones of all kinds.
@@ -186,6 +189,38 @@ fn pressures<K: Kinematics<2>>() {
                 assert!(stand.term().symmetric());
                 assert_eq!(size(&stand.evaluate(&trial, &converged, 1, false).0), 0.0);
             }
+        }
+    }
+}
+
+/// A pressure on the right side of the mesh, which has ends: the tangent is the derivative, and not symmetric.
+#[test]
+fn a_pressure_on_a_curve_has_its_tangent() {
+    for kind in KINDS {
+        let on_side = |mesh: &Mesh<2>| {
+            let right = mesh.nodes.iter().map(|x| x[0]).fold(f64::MIN, f64::max);
+            let on = |&(c, side): &(u32, u8)| {
+                let of_facet = mesh.cells.kind[c as usize].facets().1[side as usize];
+                of_facet.iter().all(|&i| mesh.nodes[mesh.cells.nodes(c as usize)[i] as usize][0] > right - 1e-9)
+            };
+            Faces::of(mesh).boundary.into_iter().filter(on).collect::<Vec<_>>()
+        };
+        let mesh = mesh(kind);
+        let facets = on_side(&mesh);
+        let points = points(&mesh, |c| c % 3 == 0);
+        let mut stand = Stand::<PlaneStrain>::new(
+            mesh,
+            points,
+            Box::new(FacetPressure::<PlaneStrain>::on(facets, head())),
+            true,
+            true,
+        );
+        for alpha_f in [0.0, 0.4] {
+            stand.alpha_f = alpha_f;
+            let (trial, converged) = anywhere(&stand);
+            let error = stand.tangent_error(&trial, &converged);
+            assert!(error < 1e-6, "{kind:?}: {error:.1e}");
+            assert!(!stand.term().symmetric() && stand.term().source() == Source::Load);
         }
     }
 }

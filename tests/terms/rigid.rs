@@ -3,6 +3,7 @@
 use crate::support::stand::{KINDS, Stand, mesh, points};
 use crate::terms::loads::anywhere;
 use mpm::dofs::RigidDofs;
+use mpm::gravity::Gravity;
 use mpm::kinematics::{Axisymmetric, Kinematics, PlaneStrain};
 use mpm::mesh::shape::CellKind;
 use mpm::rigid::Body;
@@ -51,7 +52,8 @@ fn tangents_are_the_derivatives() {
 #[test]
 fn weight_and_traction_act_on_the_reference_point() {
     let (trial, converged) = anywhere(&stand(traction()));
-    let weight = stand(Box::new(RigidWeight::new(&body(), [1.0, -10.0], vec![TimeValue::Constant(1.0); 2])));
+    let gravity = Gravity::Components([1.0, -10.0].map(TimeValue::Constant));
+    let weight = stand(Box::new(RigidWeight::new(&body(), vec![gravity; 2])));
     let force = weight.evaluate(&trial, &converged, 0, false).0;
     assert_eq!((force[3], force[4]), ([-2.5, 25.0], [0.0; 2]));
     let traction = stand(traction());

@@ -120,6 +120,7 @@ impl Stand {
             partly_filled: &[],
             ghost: &[],
             constraints: &[],
+            loaded: &[],
             boundary: &[],
             open: &[],
             level_set: &[],

@@ -2,6 +2,7 @@
 
 use super::{Analysis, StepSize, Until};
 use crate::contact::Law;
+use crate::gravity::Gravity;
 use crate::time_value::TimeValue;
 
 /// A phase of the analysis.
@@ -15,12 +16,14 @@ pub struct Phase {
     pub prescribed: Vec<Prescribed>,
     pub tractions: Vec<Traction>,
     pub surface_loads: Vec<SurfaceLoad>,
-    /// Factor (-) on gravity.
-    pub gravity: TimeValue,
+    /// Acceleration of gravity.
+    pub gravity: Gravity<2>,
     /// What strengths are divided by (-); absent where they are as given.
     pub reduction: Option<TimeValue>,
     /// Structures, walls and contacts that are not there in the phase.
     pub absent: Vec<String>,
+    /// Regions of soil that are removed as it begins.
+    pub removed: Vec<String>,
     /// The materials that regions take as it begins.
     pub changes: Vec<Change>,
     /// The laws that contacts take as it begins.
@@ -53,11 +56,25 @@ pub struct Prescribed {
     pub displacement: TimeValue,
 }
 
-/// A dead load (kPa) on a curve, per area of the undeformed curve.
+/// A load on a curve, or at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traction {
+    /// The name of the curve or the point.
     pub curve: String,
-    pub components: [TimeValue; 2],
+    /// The force (kN, in plane strain per metre) at a point; `None` on a curve, which has the rest.
+    pub force: Option<[TimeValue; 2]>,
+    /// In fixed directions, per area of the undeformed curve.
+    pub components: [LoadProfile; 2],
+    /// At right angles to the curve where it is, per area of it as it is.
+    pub pressure: Option<LoadProfile>,
+}
+
+impl Traction {
+    /// All that varies in time.
+    pub fn values(&self) -> impl Iterator<Item = &TimeValue> {
+        let profiles = self.components.iter().chain(&self.pressure).flat_map(|load| [&load.top, &load.gradient]);
+        profiles.chain(self.force.iter().flatten())
+    }
 }
 
 /// A load on the surface of the material points, per area of the surface as it is.
@@ -65,7 +82,7 @@ pub struct Traction {
 pub struct SurfaceLoad {
     /// Index into [`super::Case::regions`]; `None` for all of the surface.
     pub region: Option<usize>,
-    pub pressure: Option<Pressure>,
+    pub pressure: Option<LoadProfile>,
     /// Along the surface (kPa), positive in the sense that has the material on its left.
     pub shear: TimeValue,
     /// In fixed directions (kPa).
@@ -74,9 +91,9 @@ pub struct SurfaceLoad {
     pub within: Option<[[f64; 2]; 2]>,
 }
 
-/// A pressure (kPa, compression positive): uniform, or growing with depth.
+/// A pressure (kPa, compression positive) or a component of a traction (kPa): uniform, or varying with depth.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Pressure {
+pub struct LoadProfile {
     pub top: TimeValue,
     pub gradient: TimeValue,
     pub datum: f64,

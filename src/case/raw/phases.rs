@@ -22,15 +22,15 @@ pub struct Phase {
     /// Displacements since the beginning of the phase, by the name of a physical curve or a rigid structure.
     #[serde(default)]
     pub prescribe: BTreeMap<String, Motion>,
-    /// Loads on named curves, or on the surface of the material points.
+    /// Loads on named curves, at named points, or on the surface of the material points.
     #[serde(default)]
     pub tractions: Vec<Traction>,
     /// Height y of the water level outside in this phase (m). Default: that of `water`.
     pub water_level: Option<WaterTable>,
     /// Height y of the water level in the pores in this phase, or a line (m). Default: that of `water`.
     pub phreatic_level: Option<WaterTable>,
-    /// Factor on gravity in the phase (-). Default: 1.
-    pub gravity: Option<InTime>,
+    /// Factor on gravity in the phase (-), or its components, each an acceleration (m/s²). Default: 1.
+    pub gravity: Option<PhaseGravity>,
     /// Structures, walls and contacts, by name, that are taken away as the phase begins: until they are activated they carry
     /// nothing, touch nothing and stay where they are.
     #[serde(default)]
@@ -38,6 +38,10 @@ pub struct Phase {
     /// Structures, walls and contacts, by name, that come back as the phase begins.
     #[serde(default)]
     pub activate: Vec<String>,
+    /// Regions of kind mpm that are dug out as the phase begins. In phases without inertia the forces that their soil bore are taken off evenly
+    /// until the end of the phase.
+    #[serde(default)]
+    pub remove: Vec<String>,
     /// The materials that regions take as the phase begins, by the names of the regions. Stress is kept.
     #[serde(default)]
     pub materials: BTreeMap<String, String>,
@@ -144,6 +148,24 @@ pub enum InTime {
     Table(Table),
 }
 
+/// A factor on the gravity of the case, or the acceleration in the phase by component.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum PhaseGravity {
+    Factor(InTime),
+    Components(Acceleration),
+}
+
+/// The acceleration of gravity in a phase, in place of that of the case.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Acceleration {
+    /// Horizontal (in axisymmetry radial) component: soil is pushed that way (m/s²). Default: that of the case.
+    pub x: Option<InTime>,
+    /// Vertical component, positive upwards (m/s²). Default: that of the case.
+    pub y: Option<InTime>,
+}
+
 /// A value that grows from 0.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -173,24 +195,29 @@ pub struct Motion {
     pub rotation: Option<InTime>,
 }
 
-/// A load: `on` a named curve, dead and per area of the undeformed curve; or on the `surface` of the material points,
-/// which it follows, per area of the surface as it is.
+/// A load: a force `on` a named point; `on` a named curve, dead tractions per area of the undeformed curve and a pressure that follows it; or on
+/// the `surface` of the material points, which it follows, per area of the surface as it is.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Traction {
-    /// The name of a physical curve: a dead load per area of the undeformed curve.
+    /// The name of a physical curve: tx and ty are dead loads per area of the undeformed curve, a pressure follows it; or of a physical point,
+    /// with fx and fy.
     pub on: Option<String>,
     /// In place of a curve, the surface of the material points of a region, by its name, or of `all`: per area of the present surface.
     pub surface: Option<String>,
-    /// Horizontal (in axisymmetry radial) traction (kPa).
-    pub tx: Option<InTime>,
-    /// Vertical traction, positive upwards (kPa).
-    pub ty: Option<InTime>,
-    /// Pressure at right angles to a surface, compression positive; it may grow with depth (kPa).
+    /// Horizontal (in axisymmetry radial) traction; on a curve it may vary with depth (kPa).
+    pub tx: Option<Load>,
+    /// Vertical traction, positive upwards; on a curve it may vary with depth (kPa).
+    pub ty: Option<Load>,
+    /// Horizontal (in axisymmetry radial) force at a point, per metre out of the plane or in axisymmetry of the whole turn (kN).
+    pub fx: Option<InTime>,
+    /// Vertical force at a point, positive upwards, per metre out of the plane or in axisymmetry of the whole turn (kN).
+    pub fy: Option<InTime>,
+    /// Pressure at right angles to a surface or a curve, compression positive; it may grow with depth (kPa).
     pub pressure: Option<Load>,
     /// Traction along a surface, positive in the direction that has the soil on its left (kPa).
     pub shear: Option<InTime>,
-    /// Factor on a pressure that is a profile (-). Default: 1.
+    /// Factor on the profiles of the load (-). Default: 1.
     pub factor: Option<InTime>,
     /// The part of a surface that is loaded. Default: all of it.
     #[serde(rename = "where")]

@@ -52,7 +52,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
             if phase.prescribed.iter().any(|p| p.component == 1 && moves(&region.name, &body, &p.curve)) {
                 continue;
             }
-            let gravity = gravity(case, phase);
+            let gravity = gravity(phase);
             let speed =
                 (first * first + gravity * (2.0 * fall + 0.25 * slump)).sqrt().min(first + gravity * phase.duration);
             let largest = phase.step.max.min(phase.duration);
@@ -96,9 +96,8 @@ fn initial_speed(case: &Case, name: &str, body: &Mesh<2>) -> f64 {
 }
 
 /// The largest acceleration of gravity (m/s²) downwards in a phase.
-fn gravity(case: &Case, phase: &Phase) -> f64 {
-    let times = phase.gravity.kinks().filter(|&t| t < phase.duration).chain([0.0, phase.duration]);
-    times.map(|t| -case.gravity[1] * phase.gravity.at(t)).fold(0.0, f64::max)
+fn gravity(phase: &Phase) -> f64 {
+    phase.gravity.extremes(phase.duration).map(|g| -g[1]).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -1,6 +1,8 @@
 //! Loads and tables of which a part, or all, does nothing, or that begin anew where they were to go on.
 
-use crate::case::checked::{Case, Geometry, Phase, SurfaceLoad, Traction};
+use crate::case::checked::{Case, Geometry, LoadProfile, Phase, SurfaceLoad, Traction};
+use crate::case::curve_loads::presses;
+use crate::gravity::Gravity;
 use crate::mesh::quality::SAME;
 use crate::mesh::{Group, Mesh};
 use crate::time_value::TimeValue;
@@ -13,7 +15,8 @@ pub fn of_case(case: &Case) -> Vec<String> {
     let mut warnings: Vec<String> = (0..case.phases.len()).flat_map(|k| beyond(case, k)).collect();
     warnings.extend((0..case.phases.len()).flat_map(|k| begin_anew(case, k)));
     warnings.extend(case.phases.iter().flat_map(twice));
-    let idle = case.phases.iter().find(|phase| case.gravity == [0.0; 2] && phase.gravity != TimeValue::Constant(1.0));
+    let as_given = [TimeValue::Constant(1.0)];
+    let idle = case.phases.iter().find(|phase| case.gravity == [0.0; 2] && phase.gravity.values() != as_given);
     warnings.extend(idle.map(|phase| {
         format!(
             "warning: phase `{}` has a factor on gravity, and there is no gravity: add `gravity: {{y: -9.81}}` to the case, or take the factor out",
@@ -29,7 +32,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
     for phase in &case.phases {
         for load in &phase.tractions {
             let Some(curve) = mesh.group(&load.curve) else { continue };
-            if is_axis(case, mesh, curve) {
+            if load.force.is_none() && is_axis(case, mesh, curve) {
                 warnings.push(format!(
                     "warning: phase `{}`: the traction on `{}` does nothing: the curve lies on the axis of symmetry, where a load has no area; \
                      take it out, or load a curve at a radius above 0",
@@ -37,7 +40,28 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
                 ));
                 continue;
             }
-            for d in (0..2).filter(|&d| !is_zero(&load.components[d]) && is_held(case, phase, mesh, curve, d)) {
+            let held = [0, 1].map(|d| is_held(case, phase, mesh, curve, d));
+            for (d, force) in load.force.iter().flatten().enumerate() {
+                let on_axis = d == 0 && is_axis(case, mesh, curve);
+                if !force.is_zero() && (held[d] || on_axis) {
+                    let why =
+                        if on_axis { "lies on the axis of symmetry" } else { "is held or moved in that direction" };
+                    warnings.push(format!(
+                        "warning: phase `{}`: `f{}` at `{}` does nothing: the point {why}; take one of the two out",
+                        phase.name, AXES[d], load.curve
+                    ));
+                }
+            }
+            if load.pressure.is_some() && (0..2).all(|d| held[d] || !presses(mesh, curve, d)) {
+                let name = &load.curve;
+                warnings.push(format!(
+                    "warning: phase `{}`: the pressure on `{name}` does nothing to the soil: all of the curve is held or moved in its direction, and \
+                     the load goes into that; take one of the two out",
+                    phase.name
+                ));
+            }
+            let acts = |d: usize| [&load.components[d].top, &load.components[d].gradient].iter().any(|v| !v.is_zero());
+            for d in (0..2).filter(|&d| held[d] && acts(d)) {
                 let name = &load.curve;
                 warnings.push(format!(
                     "warning: phase `{}`: `t{}` of the traction on `{name}` does nothing to the soil: all of the curve is held or moved in that \
@@ -80,20 +104,23 @@ fn twice(phase: &Phase) -> Vec<String> {
     };
     let curves = phase.tractions.iter().enumerate().filter(|(i, load)| phase.tractions[..*i].contains(load));
     let surfaces = phase.surface_loads.iter().enumerate().filter(|(i, load)| phase.surface_loads[..*i].contains(load));
-    let curves = curves.map(|(_, load)| said(format!("the traction on `{}`", load.curve)));
+    let curves = curves.map(|(_, load)| said(format!("the load on `{}`", load.curve)));
     curves.chain(surfaces.map(|_| said("a load on the surface".to_owned()))).collect()
 }
 
 /// What varies in the time of phase `k`, with what it is.
 fn values(case: &Case, k: usize) -> Vec<(String, &TimeValue)> {
     let phase = &case.phases[k];
-    let mut values = vec![("`gravity`".to_owned(), &phase.gravity)];
+    let name = |d: usize| match phase.gravity {
+        Gravity::Scaled { .. } => "`gravity`".to_owned(),
+        Gravity::Components(_) => format!("`{}` of `gravity`", AXES[d]),
+    };
+    let mut values: Vec<_> = phase.gravity.values().iter().enumerate().map(|(d, value)| (name(d), value)).collect();
     values.extend(phase.prescribed.iter().map(|p| {
         (format!("`{}` prescribed of `{}`", ["ux", "uy", "rotation"][p.component], p.curve), &p.displacement)
     }));
     for load in &phase.tractions {
-        let of = |d: usize| (format!("`t{}` of the traction on `{}`", AXES[d], load.curve), &load.components[d]);
-        values.extend([0, 1].map(of));
+        values.extend(of_curve(load));
     }
     for load in &phase.surface_loads {
         values.extend(of_surface(case, load));
@@ -103,6 +130,22 @@ fn values(case: &Case, k: usize) -> Vec<(String, &TimeValue)> {
     values
 }
 
+/// The values of a load on a curve.
+fn of_curve(load: &Traction) -> Vec<(String, &TimeValue)> {
+    if let Some(force) = &load.force {
+        return [0, 1].map(|d| (format!("`f{}` at `{}`", AXES[d], load.curve), &force[d])).to_vec();
+    }
+    let name = |key: &str| format!("`{key}` of the traction on `{}`", load.curve);
+    let keys = [("tx", &load.components[0]), ("ty", &load.components[1])];
+    let loads = keys.into_iter().chain(load.pressure.iter().map(|pressure| ("pressure", pressure)));
+    loads.map(|(key, load)| (name(key), largest(load))).collect()
+}
+
+/// What varies of a load: both parts of a profile do, by the same factor.
+fn largest(load: &LoadProfile) -> &TimeValue {
+    if load.top.is_zero() { &load.gradient } else { &load.top }
+}
+
 /// The values of a load on the surface.
 fn of_surface<'a>(case: &Case, load: &'a SurfaceLoad) -> Vec<(String, &'a TimeValue)> {
     let place = load.region.map_or("all", |region| &case.regions[region].name);
@@ -110,8 +153,7 @@ fn of_surface<'a>(case: &Case, load: &'a SurfaceLoad) -> Vec<(String, &'a TimeVa
     let mut values = vec![(name("shear"), &load.shear)];
     values.extend([0, 1].map(|d| (name(["tx", "ty"][d]), &load.components[d])));
     if let Some(pressure) = &load.pressure {
-        let largest = if is_zero(&pressure.top) { &pressure.gradient } else { &pressure.top };
-        values.push((name("pressure"), largest));
+        values.push((name("pressure"), largest(pressure)));
     }
     values
 }
@@ -123,13 +165,6 @@ fn levels(case: &Case, k: usize) -> Vec<(String, &TimeValue)> {
     let in_pores = water.phreatic.as_ref().and_then(|tables| tables.get(k)?.level());
     let values = [("the water level", outside), ("the phreatic level", in_pores)];
     values.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
-}
-
-fn is_zero(value: &TimeValue) -> bool {
-    match value {
-        TimeValue::Constant(value) | TimeValue::Rate(value) => *value == 0.0,
-        TimeValue::Table(table) => table.iter().all(|[_, value]| *value == 0.0),
-    }
 }
 
 /// A warning for each table with times after the end of phase `k`.
@@ -164,7 +199,7 @@ fn begin_anew(case: &Case, k: usize) -> Vec<String> {
     let mut compare = |what: String, ended: f64, now: &TimeValue, before: &str| {
         // Without the sign of a zero.
         let begins = now.at(0.0) + 0.0;
-        let varies = !matches!(now, TimeValue::Constant(_)) && !is_zero(now);
+        let varies = !matches!(now, TimeValue::Constant(_)) && !now.is_zero();
         let size = ended.abs().max(begins.abs());
         if varies && ended != 0.0 && (begins - ended).abs() > 1e-9 * size {
             let to = ended + now.at(phase.duration) - begins;
@@ -177,18 +212,34 @@ fn begin_anew(case: &Case, k: usize) -> Vec<String> {
     };
     let Some(last) = k.checked_sub(1).map(|k| &case.phases[k]) else {
         if case.k0.is_some() && case.gravity != [0.0; 2] {
-            compare(
-                "gravity".to_owned(),
-                1.0,
-                &phase.gravity,
-                "the initial stress is that under gravity with the factor",
-            );
+            match &phase.gravity {
+                Gravity::Scaled { factor, .. } => {
+                    let before = "the initial stress is that under gravity with the factor";
+                    compare("gravity".to_owned(), 1.0, factor, before);
+                }
+                Gravity::Components(components) => {
+                    for (d, now) in components.iter().enumerate() {
+                        let before = "the initial stress is that under gravity with";
+                        compare(format!("`{}` of gravity", AXES[d]), case.gravity[d], now, before);
+                    }
+                }
+            }
         }
         return warnings;
     };
     let before = format!("phase `{}` has ended with", last.name);
     if case.gravity != [0.0; 2] {
-        compare("the factor on gravity".to_owned(), last.gravity.at(last.duration), &phase.gravity, &before);
+        match (&last.gravity, &phase.gravity) {
+            (Gravity::Scaled { factor: ended, .. }, Gravity::Scaled { factor, .. }) => {
+                compare("the factor on gravity".to_owned(), ended.at(last.duration), factor, &before);
+            }
+            (ended, now) => {
+                for d in 0..2 {
+                    let what = format!("`{}` of gravity", AXES[d]);
+                    compare(what, ended.at(last.duration)[d], &now.component(d), &before);
+                }
+            }
+        }
     }
     for (what, now) in levels(case, k) {
         let value = levels(case, k - 1).into_iter().find(|(other, _)| *other == what);
@@ -199,9 +250,10 @@ fn begin_anew(case: &Case, k: usize) -> Vec<String> {
     for load in &phase.tractions {
         let here = |other: &&Traction| other.curve == load.curve;
         let Some(other) = one(last.tractions.iter().filter(here)) else { continue };
-        for d in 0..2 {
-            let (what, ended) = (format!("`t{}` of the traction on `{}`", AXES[d], load.curve), &other.components[d]);
-            compare(what, ended.at(last.duration), &load.components[d], &before);
+        for ((what, now), (other, ended)) in of_curve(load).into_iter().zip(of_curve(other)) {
+            if what == other {
+                compare(what, ended.at(last.duration), now, &before);
+            }
         }
     }
     for load in &phase.surface_loads {
@@ -304,6 +356,15 @@ mod tests {
         let two = |other: &str| of_case(&case("", &[&format!(", tractions: [{load}, {other}]")]));
         assert!(two("{surface: all, ty: -41}").is_empty());
         assert!(two(load)[0].contains("is given twice"), "{:?}", two(load));
+        for second in [", gravity: {x: {rate: 1}}", ", gravity: {x: 1, y: {table: [[0, -9.81], [1, -5]]}}", ""] {
+            assert!(gravity(", gravity: {rate: 1}", second).is_empty(), "{second}");
+        }
+        let [anew] = gravity(", gravity: {x: {rate: 2}}", ", gravity: {x: {rate: 1}}").try_into().unwrap();
+        assert!(anew.contains("`x` of gravity begins with 0, and phase `p0` has ended with 2"), "{anew}");
+        let [anew] = gravity(", gravity: {x: 2}", ", gravity: {rate: 1}").try_into().unwrap();
+        assert!(anew.contains("`y` of gravity begins with 0, and phase `p0` has ended with -9.81"), "{anew}");
+        let [after] = gravity("", ", gravity: {x: {table: [[0, 0], [5, 1]]}}").try_into().unwrap();
+        assert!(after.contains("the table of `x` of `gravity` goes to 5 s"), "{after}");
         let [nothing] = of_case(&case("", &[", gravity: {rate: 1}"])).try_into().unwrap();
         assert!(nothing.contains("there is no gravity"), "{nothing}");
     }

@@ -13,7 +13,7 @@ const ROUNDING: f64 = 1e-3;
 /// A warning for each region of soil whose dilation is less than its friction and whose lower half yields under its own weight, in ground from side
 /// to side of the model, as gravity comes to act without `initial_stress`.
 pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
-    let Some(phase) = case.phases.iter().find(|phase| phase.gravity.at(phase.duration) > 0.0) else {
+    let Some(phase) = case.phases.iter().find(|phase| phase.gravity.at(phase.duration)[1] < 0.0) else {
         return Vec::new();
     };
     if case.k0.is_some() || phase.analysis == Analysis::Dynamic || case.gravity[1] >= 0.0 {

@@ -125,7 +125,8 @@ impl<'a> Bodies<'a> {
         let area: Vec<f64> = volume.iter().zip(&traced.position).map(area).collect();
         let Traced { position, origin } = &traced;
         let cloud = Cloud { position, origin, area: &area, values: Values { width, of: &of } };
-        let body = self.soil.body(&nodes, cloud, (&places, &standing));
+        let left = self.regions.removes.then(|| self.soil.left(origin)).flatten();
+        let body = left.as_ref().unwrap_or(&self.soil).body(&nodes, cloud, (&places, &standing));
         let elements: Vec<&([u32; 3], u16)> =
             self.elements.iter().filter(|(_, r)| self.regions.soil[*r as usize]).collect();
         let mut grid = joined(body, &arrays, &elements, smooth, fields);

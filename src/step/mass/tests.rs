@@ -29,6 +29,8 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         quadrature: Box::new(Volumes::<K>::default()),
         supports: Vec::new(),
         traced: Vec::new(),
+        removals: Vec::new(),
+        loaded: Vec::new(),
         begins: 0.0,
         phases: vec![Phase {
             name: "flight".into(),
@@ -56,6 +58,7 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
             max_iterations: 25,
         },
         gravity: [0.0; 2],
+        strongest_gravity: 0.0,
         stiffness_scale: 1.0,
         density_scale: 2.0,
     }

@@ -182,7 +182,7 @@ pub const MEANING: &[Broken] = &[
     ),
     check(
         Case("    prescribe:", "    tractions: [{surface: all, pressure: 1, factor: 2}]\n    prescribe:"),
-        &["tractions[0].factor", "grows with depth"],
+        &["tractions[0].factor", "varies with depth"],
     ),
     check(
         Case("    prescribe:", "    water_level: 1\n    prescribe:"),

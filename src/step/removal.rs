@@ -1,0 +1,62 @@
+//! Excavation: soil that goes as a phase begins (docs/theory.md, section 14, *Excavation*).
+
+use super::energies::Item;
+use super::grid::Grid;
+use super::ramp::UnbalancedRamp;
+use super::relax;
+use super::scene::Scene;
+use super::state::State;
+use super::unbalanced;
+use super::work;
+use crate::error::Result;
+use crate::kinematics::Kinematics;
+
+/// Removes the soil that goes as the phase in hand begins, on a reset grid; false where nothing of it is there.
+///
+/// # Errors
+/// When a point lies outside the grid, or memory does not suffice.
+pub fn remove<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    grid: &mut Grid<D>,
+    state: &mut State<D>,
+) -> Result<bool> {
+    let removal = scene.removals.get(state.phase).and_then(Option::as_ref);
+    let Some(removal) = removal.filter(|_| state.phase_time == 0.0) else { return Ok(false) };
+    let stays = |&p: &usize| !removal.regions[state.points.region[p] as usize];
+    if (0..state.points.len()).all(|p| stays(&p)) {
+        return Ok(false);
+    }
+    work::begin(scene, grid, state)?;
+    grid.restore::<K>(scene, state)?;
+    let (mesh, locator) = relax::mesh(scene, grid.relaxed.as_ref());
+    let remains = removal.parting.remains(mesh, &state.points);
+    scene.quadrature.part((mesh, locator), &state.points, &state.active, &remains, &mut state.front);
+    let stays = |&p: &usize| !removal.regions[state.points.region[p] as usize];
+    let left: Vec<usize> = (0..state.points.len()).filter(stays).collect();
+    state.points = state.points.select(&left);
+    state.parametric = left.iter().map(|&p| state.parametric[p]).collect();
+    if !state.start_position.is_empty() {
+        state.start_position = left.iter().map(|&p| state.start_position[p]).collect();
+    }
+    grid.restore::<K>(scene, state)?;
+    state.increment.fill([0.0; D]);
+    state.balanced = None;
+    work::note(scene, grid, state, Item::Changes)?;
+    Ok(true)
+}
+
+/// Holds what the removed soil bore, and takes it off evenly until the end of the phase: without inertia, and where the phase is not to find out by
+/// itself whether there is an equilibrium.
+///
+/// # Errors
+/// When the state is inadmissible on the reset grid.
+pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>) -> Result<()> {
+    let phase = &scene.phases[state.phase];
+    if phase.dynamic || phase.auto || phase.search.is_some() {
+        return Ok(());
+    }
+    if let Some(force) = unbalanced::to_hold(scene, grid, state, (0.0, scene.numerics.tolerance))? {
+        state.ramp = UnbalancedRamp { force, from: 0.0, until: phase.duration };
+    }
+    Ok(())
+}
