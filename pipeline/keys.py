@@ -33,7 +33,7 @@ FOLDERS = ("templates", "cases", "docs/examples", "tests/data")
 # What is said of definitions that many keys share.
 PROFILE = "number or [profile](case-file.md#numbers-that-vary)"
 IN_TIME = "number, constant or [in time](case-file.md#numbers-that-vary)"
-SHARED = {"InDepth": PROFILE, "InTime": IN_TIME, "Load": f"{IN_TIME}, or a profile", "OneOrMore": "a name or a list of names",
+SHARED = {"InDepth": PROFILE, "InTime": IN_TIME, "Load": f"{IN_TIME}, or a profile", "WaterTable": f"{IN_TIME}, or a [line](loads.md#line)", "OneOrMore": "a name or a list of names",
           "Quantity": "a [quantity](output.md#quantities)", "Field": "a [field](output.md#fields)"}
 
 

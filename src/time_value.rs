@@ -44,7 +44,8 @@ impl TimeValue {
     }
 }
 
-fn interpolate(table: &[[f64; 2]], t: f64) -> f64 {
+/// The value at `t` between the entries of a table, and beyond them that of the nearest.
+pub fn interpolate(table: &[[f64; 2]], t: f64) -> f64 {
     let after = table.partition_point(|&[time, _]| time <= t);
     match (after.checked_sub(1).and_then(|i| table.get(i)), table.get(after)) {
         (Some(&[t0, v0]), Some(&[t1, v1])) => v0 + (v1 - v0) * (t - t0) / (t1 - t0),

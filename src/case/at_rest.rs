@@ -46,10 +46,10 @@ pub(super) fn stress(case: &Case, mesh: &Mesh<2>, k0: &[EarthPressure], points: 
     let above = k0_stress(mesh, &weights.iter().map(unit).collect::<Vec<_>>(), |_| 0.0, points);
     let soil = |region: u16| weights.iter().any(|w| w.region == region);
     for (p, stress) in stress.iter_mut().enumerate().filter(|(p, _)| soil(points.region[*p])) {
-        let y = points.position[p][1];
-        let pressure = water.at_first(y - above[p][1]);
+        let x = points.position[p];
+        let pressure = water.at_first(x[1] - above[p][1]);
         stress[..3].iter_mut().for_each(|s| *s -= pressure);
-        if let Some(pore_pressure) = water.in_pores_at_first(y) {
+        if let Some(pore_pressure) = water.in_pores_at_first(x) {
             let effective = stress[1] + pore_pressure;
             let sideways = k0(p) * effective;
             *stress = [sideways, effective, sideways, 0.0, 0.0, 0.0];
@@ -73,8 +73,8 @@ pub fn imbalance(case: &Case, mesh: &Mesh<2>) -> Result<Option<String>> {
     }
     let stress = stress(case, mesh, k0, &points)?;
     let outside = |y: f64| case.water.as_ref().map_or(0.0, |water| water.at_first(y));
-    let in_pores = |y: f64| case.water.as_ref().and_then(|water| water.in_pores_at_first(y)).unwrap_or(0.0);
-    let mut next = stress.iter().zip(&points.position).map(|(s, x)| (in_pores(x[1]) - s[0], *x));
+    let in_pores = |x| case.water.as_ref().and_then(|water| water.in_pores_at_first(x)).unwrap_or(0.0);
+    let mut next = stress.iter().zip(&points.position).map(|(s, x)| (in_pores(*x) - s[0], *x));
     let mut worst: Option<[(f64, [f64; 2]); 2]> = None;
     let (mut largest, mut force) = (0.0, 0.0);
     for line in &lines {

@@ -66,12 +66,14 @@ impl Checker {
             .map(|(name, region)| self.region(name, region, &names, &root.key("regions").key(name)))
             .collect();
         let contacts = self.contacts(file, &root.key("contacts"));
-        let numerics = self.numerics(file, !contacts.is_empty(), &root.key("numerics"));
+        let rollers = self.rollers(file, &root.key("supports"));
+        let has_contact = !contacts.is_empty() || !rollers.is_empty();
+        let numerics = self.numerics(file, has_contact, &root.key("numerics"));
         let mut phases = self.phases(file, &numerics, &root.key("phases"));
         let k0 = self.earth_pressures(file, &materials, &root.key("initial_stress").key("k0"));
         let mut water = self.water(file, &root);
         let equilibrium = self.equilibrium(file, &mut phases, water.as_mut(), &root);
-        let case = Case {
+        let mut case = Case {
             title: file.title.clone(),
             geometry: self.geometry(file.geometry, &root.key("geometry")),
             mesh: self.mesh(&file.mesh, folder, &root.key("mesh")),
@@ -92,6 +94,7 @@ impl Checker {
             unlikely: unlikely::values(file),
         };
         self.together(&case, file);
+        case.contacts.extend(rollers);
         case
     }
 
@@ -169,7 +172,7 @@ impl Checker {
         let mut checked = Vec::new();
         for (curve, held) in &file.supports {
             let path = path.key(curve);
-            for (key, value) in [("ux", held.ux), ("uy", held.uy), ("rotation", held.rotation)] {
+            for (key, value) in [("ux", held.ux), ("uy", held.uy), ("un", held.un), ("rotation", held.rotation)] {
                 if value.is_some_and(|value| value != 0.0) {
                     let remedy = "write 0 here and the motion under `prescribe` of a phase";
                     self.issue(&path.key(key), At::Value, "a support does not move", remedy);
@@ -179,13 +182,15 @@ impl Checker {
                 self.turns(file, curve, &path.key("rotation"));
             }
             self.drained(file, curve, held, &path);
-            if held.ux.is_none() && held.uy.is_none() && held.rotation.is_none() && held.pore_pressure.is_none() {
-                self.issue(&path, At::Key, "nothing is held", "add `ux: 0` or `uy: 0`");
+            let displacements = [held.ux, held.uy, held.un, held.rotation];
+            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) {
+                self.issue(&path, At::Key, "nothing is held", "add `ux: 0`, `uy: 0` or `un: 0`");
             }
             checked.push(Support {
                 curve: curve.clone(),
                 fixed: [held.ux.is_some(), held.uy.is_some()],
                 rotation: held.rotation.is_some(),
+                across: held.un.is_some(),
                 drained: held.pore_pressure.is_some(),
             });
         }

@@ -15,6 +15,7 @@ use crate::interpolation::Basis;
 use crate::material::Profile;
 use crate::step;
 use crate::time_value::TimeValue;
+use crate::water_table::WaterTable;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -208,6 +209,8 @@ pub struct Support {
     pub curve: String,
     pub fixed: [bool; 2],
     pub rotation: bool,
+    /// Whether it is held across the curve, by a contact of a wall.
+    pub across: bool,
     /// Whether water leaves there.
     pub drained: bool,
 }
@@ -282,8 +285,8 @@ pub struct Water {
     pub unit_weight: f64,
     /// Height y (m) of its level in each phase; `None` without any outside.
     pub level: Option<Vec<TimeValue>>,
-    /// Height y (m) up to which the pores have it in each phase; `None` where they have none.
-    pub phreatic: Option<Vec<TimeValue>>,
+    /// Up to where the pores have it in each phase; `None` where they have none.
+    pub phreatic: Option<Vec<WaterTable>>,
 }
 
 /// What is written, and when.

@@ -125,6 +125,12 @@ impl Parts<'_> {
         own.fold(contact.law.into(), |laws: Laws, (phase, change)| laws.then(phase, change.law))
     }
 
+    /// Whether a contact is a support across a curve.
+    fn is_support(&self, contact: &Contact) -> bool {
+        let holds = |curve: &String| self.case.supports.iter().any(|s| s.across && s.curve == *curve);
+        matches!(&contact.structure, Touching::Wall(curve) if holds(curve))
+    }
+
     fn no_cells(&self, contact: &Contact, what: &str) -> Error {
         Error::input(
             format!("contact of `{}`", self.name(&contact.structure)),
@@ -145,7 +151,13 @@ impl Parts<'_> {
             }
             _ => self.boundary(structure, SPACING * edge, &held(self.case, self.grid, SPACING * edge))?,
         };
-        let sides = Sides { structure, against: None, soils: regions, laws: self.laws(contact) };
+        let sides = Sides {
+            structure,
+            against: None,
+            soils: regions,
+            laws: self.laws(contact),
+            is_support: self.is_support(contact),
+        };
         Ok(Boundary { sides, surface, models, kinematics: PhantomData })
     }
 
@@ -195,7 +207,13 @@ impl Parts<'_> {
         let young = changes::used(self.case).filter(|(region, _)| is_soft(region));
         let young = young.map(|(_, material)| material.model.young(height / count));
         Ok(Bodies {
-            sides: Sides { structure, against: Some(against), soils: Vec::new(), laws: self.laws(contact) },
+            sides: Sides {
+                structure,
+                against: Some(against),
+                soils: Vec::new(),
+                laws: self.laws(contact),
+                is_support: self.is_support(contact),
+            },
             surface,
             other,
             soil: soil.transpose()?,

@@ -93,6 +93,50 @@ impl Checker {
         checked
     }
 
+    /// What holds soil across curves (`un`): smooth walls that it does not part from.
+    pub(super) fn rollers(&mut self, file: &raw::CaseFile, path: &Path) -> Vec<Contact> {
+        let mut rollers = Vec::new();
+        for (curve, held) in file.supports.iter().filter(|(_, held)| held.un.is_some()) {
+            let path = path.key(curve).key("un");
+            if file.regions.contains_key(curve) {
+                self.issue(&path, At::Key, "a region has no direction", "name a curve, or hold `ux` and `uy`");
+            }
+            if held.ux.is_some() || held.uy.is_some() || held.rotation.is_some() {
+                self.issue(
+                    &path,
+                    At::Key,
+                    "`un` holds the soil across the curve alone",
+                    "take it or the other components out",
+                );
+            }
+            if file.contacts.iter().any(|contact| contact.wall.as_ref() == Some(curve)) {
+                self.issue(
+                    &path,
+                    At::Key,
+                    format!("`{curve}` is a wall of `contacts`, too"),
+                    "take one of the two out",
+                );
+            }
+            if file.mesh.order == Some(3) {
+                let problem = "soil is held across curves of cells of first and second order only";
+                self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`, or hold `ux` or `uy`");
+            }
+            let of_kind = |kind: RegionKind| {
+                file.regions.values().enumerate().filter(move |(_, region)| region.kind == kind).map(|(index, _)| index)
+            };
+            let points: Vec<usize> = of_kind(RegionKind::Mpm).collect();
+            let soil = (!points.is_empty()).then_some(Touched::Soil(points));
+            let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: f64::INFINITY, sealed: false };
+            rollers.extend(soil.into_iter().chain(of_kind(RegionKind::Fem).map(Touched::Body)).map(|on| Contact {
+                name: None,
+                structure: Touching::Wall(curve.clone()),
+                on,
+                law,
+            }));
+        }
+        rollers
+    }
+
     /// Refuses a contact that another one has already, in a phase in which both are there: it would act twice.
     pub(super) fn contacts_twice(&mut self, case: &Case, file: &raw::CaseFile) {
         // Where one is not sound, the numbers of the entries differ.

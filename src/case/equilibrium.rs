@@ -46,10 +46,9 @@ impl Checker {
         };
         first.reset_displacements = true;
         phases.insert(0, phase);
-        for levels in water.into_iter().flat_map(|water| [&mut water.level, &mut water.phreatic]).flatten() {
-            if let Some(first) = levels.first() {
-                levels.insert(0, TimeValue::Constant(first.at(0.0)));
-            }
+        if let Some(Water { level, phreatic, .. }) = water {
+            level.iter_mut().for_each(|levels| levels.insert(0, TimeValue::Constant(levels[0].at(0.0))));
+            phreatic.iter_mut().for_each(|tables| tables.insert(0, tables[0].held()));
         }
         if let Some(i) = file.phases.iter().position(|phase| phase.name == NAME) {
             let path = root.key("phases").index(i).key("name");
@@ -71,8 +70,9 @@ impl Checker {
 
 /// A warning where soil that keeps its volume comes to equilibrium.
 pub fn undrained(case: &Case) -> Option<String> {
-    let Material { name, .. } =
-        case.materials.iter().find(|material| material.has_pore_pressure() && case.equilibrium)?;
+    // A case with mistakes may lack materials.
+    let of_regions = case.regions.iter().filter_map(|region| case.materials.get(region.content.material()?));
+    let Material { name, .. } = of_regions.filter(|_| case.equilibrium).find(|soil| soil.has_pore_pressure())?;
     Some(format!(
         "warning: `then: {NAME}` of `initial_stress` deforms `{name}` undrained, and leaves an excess pore pressure in it where ground or layers \
          are not level; where there is to be none, load gravity in a first consolidation phase in place of `initial_stress`"

@@ -41,6 +41,7 @@ pub mod seeding;
 pub mod source;
 mod staged;
 pub mod start;
+mod stops;
 pub mod structure;
 #[cfg(test)]
 mod tests;

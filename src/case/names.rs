@@ -52,10 +52,18 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         }
     }
     for support in &case.supports {
-        names.held(case, &support.curve, &root.key("supports").key(&support.curve));
+        let path = root.key("supports").key(&support.curve);
+        if support.across {
+            names.curve(&support.curve, &path, At::Key);
+        } else {
+            names.held(case, &support.curve, &path);
+        }
     }
+    let across = |curve: &str| case.supports.iter().any(|support| support.across && support.curve == curve);
     for (i, contact) in case.contacts.iter().enumerate() {
-        if let Touching::Wall(curve) = &contact.structure {
+        if let Touching::Wall(curve) = &contact.structure
+            && !across(curve)
+        {
             names.curve(curve, &root.key("contacts").index(i).key("wall"), At::Value);
         }
     }

@@ -43,6 +43,10 @@ impl Checker {
         let mut prescribed = Vec::new();
         for (curve, motion) in &phase.prescribe {
             let path = path.key("prescribe").key(curve);
+            if file.supports.get(curve).is_some_and(|held| held.un.is_some()) {
+                let remedy = "take one of the two out; a curve that moves is a `wall` of `contacts`";
+                self.issue(&path, At::Key, format!("`{curve}` has `un: 0` under `supports`"), remedy);
+            }
             if motion.rotation.is_some() {
                 self.turns(file, curve, &path.key("rotation"));
             }

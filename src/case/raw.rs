@@ -4,11 +4,13 @@
 //! [`super::Case`]. The documentation comments become the descriptions of `mpm schema`, and the first
 //! sentence of each is shown as a remedy, so each says what the entry is and its unit.
 
+mod ground;
 mod materials;
 mod numerics;
 mod output;
 mod phases;
 
+pub use ground::*;
 pub use materials::*;
 pub use numerics::*;
 pub use output::*;
@@ -209,6 +211,8 @@ pub struct Components {
     pub ux: Option<f64>,
     /// Vertical displacement, held at 0 (m).
     pub uy: Option<f64>,
+    /// Displacement across a curve of any direction, held at 0: the soil slides along it without friction and does not part from it (m).
+    pub un: Option<f64>,
     /// Rotation of a rigid structure, held at 0 (rad).
     pub rotation: Option<f64>,
     /// Excess pore pressure, held at 0 while water flows: the curve is drained (kPa).
@@ -336,63 +340,6 @@ pub struct Vector {
     pub y: f64,
 }
 
-/// The stress before the first phase.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct InitialStress {
-    /// Horizontal over vertical effective stress, of all soil or by the name of a material; the vertical stress is the weight above the point (-).
-    pub k0: EarthPressures,
-    /// What the run does with it before the first phase: equilibrium (a quasi-static phase of its own under the weight, after which displacements are
-    /// counted from 0). Default: nothing.
-    pub then: Option<Then>,
-}
-
-/// What becomes of an initial stress before the first phase.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
-#[serde(rename_all = "snake_case")]
-pub enum Then {
-    Equilibrium,
-}
-
-/// A number or a profile for all soil, or one of each material.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum EarthPressures {
-    All(EarthPressure),
-    ByMaterial(BTreeMap<String, EarthPressure>),
-}
-
-/// A number, a profile, or `{overconsolidation_ratio: R}`: (1 − sin φ) R^(sin φ), with the angle of friction φ of the material.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(untagged)]
-pub enum EarthPressure {
-    Given(InDepth),
-    Overconsolidated(Overconsolidated),
-}
-
-/// Soil that bore more in the past.
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Overconsolidated {
-    /// Largest vertical effective stress of the past over that of today, 1 for normally consolidated soil (-).
-    pub overconsolidation_ratio: InDepth,
-}
-
-/// Water around the soil and the structures, a load on their boundaries, and in the pores of the soil.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Water {
-    /// Height y of the water level outside of the soil, in the time of each phase (m). Default: no water outside.
-    pub level: Option<InTime>,
-    /// Height y of the water level in the pores, in the time of each phase (m). With it, all materials are in effective stress.
-    /// Default: no water in the pores.
-    pub phreatic_level: Option<InTime>,
-    /// Unit weight of the water (kN/m³).
-    #[serde(default = "unit_weight_of_water")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub unit_weight: f64,
-}
-
 /// A velocity field: `velocity + gradient · (x − centre)` plus a standing wave.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -430,8 +377,4 @@ pub struct StandingWave {
 pub enum Axis {
     X,
     Y,
-}
-
-fn unit_weight_of_water() -> f64 {
-    9.81
 }

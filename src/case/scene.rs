@@ -9,7 +9,7 @@ use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
     changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, pores, removed,
-    scheme, search, seeded, staged, unconnected, unmeant, wall, water,
+    scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
 };
 use crate::error::{Error, Result};
 use crate::gravity::Gravity;
@@ -22,7 +22,7 @@ use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
-use crate::step::{Fem, Phase, Scene, Search, State, Stop, overlap};
+use crate::step::{Fem, Phase, Scene, Search, State, overlap};
 use crate::term::{
     BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
     PressureField, SmoothPressure, Term,
@@ -407,54 +407,12 @@ fn phase(
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset_displacements: phase.reset_displacements,
-        stops: stops(phase.duration, every, values.flat_map(TimeValue::kinks)),
+        stops: stops::of(phase.duration, every, values.flat_map(TimeValue::kinks)),
     })
-}
-
-/// When steps must end: at outputs, where a table bends, and at the end of the phase.
-fn stops(duration: f64, every: Option<f64>, kinks: impl Iterator<Item = f64>) -> Vec<Stop> {
-    let tiny = 1e-9 * duration;
-    let mut stops = vec![Stop { time: duration, frame: true }];
-    if let Some(every) = every {
-        let count = ((duration - tiny) / every).floor() as usize;
-        stops.extend((1..=count).map(|k| Stop { time: k as f64 * every, frame: true }));
-    }
-    let kinks = kinks.filter(|&t| t > tiny && t < duration - tiny);
-    stops.extend(kinks.map(|time| Stop { time, frame: false }));
-    stops.sort_by(|a, b| a.time.total_cmp(&b.time));
-    // Of stops at a time one is enough, with a frame if one of them has.
-    stops.dedup_by(|later, kept| {
-        let same = later.time - kept.time <= tiny && !(later.frame && kept.frame);
-        if same && later.frame {
-            (kept.time, kept.frame) = (later.time, true);
-        }
-        same
-    });
-    stops
 }
 
 /// The model of each material by number.
 fn models(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Option<std::sync::Arc<dyn crate::material::Model>>>> {
     let model = |m: &Material| Some(m.carried.as_ref().map_or(&m.model, |carried| &carried.model).clone());
     changes::by_number(case, mesh, model)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn steps_stop_at_outputs_kinks_and_the_end() {
-        let stops = stops(1.0, Some(0.3), [0.0, 0.45, 0.6, 1.0].into_iter());
-        let expected = [(0.3, true), (0.45, false), (0.6, true), (0.9, true), (1.0, true)];
-        assert_eq!(stops.len(), expected.len());
-        for (stop, (time, frame)) in stops.iter().zip(expected) {
-            assert!((stop.time - time).abs() < 1e-12 && stop.frame == frame, "{stop:?}");
-        }
-    }
-
-    #[test]
-    fn an_output_interval_that_divides_the_duration_adds_no_sliver() {
-        assert_eq!(stops(1.0, Some(0.1), std::iter::empty()).len(), 10);
-    }
 }

@@ -76,9 +76,10 @@ fn room(case: &Case, places: &[Place]) -> Vec<String> {
 
 /// A warning for each region of undrained soil that reaches above the level of the water in the pores.
 fn above_water(case: &Case, places: &[Place]) -> Vec<String> {
-    let level = case.water.as_ref().and_then(|water| water.phreatic.as_ref()?.first().map(|level| level.at(0.0)));
-    let Some(level) = level else { return Vec::new() };
-    let reaches = |place: &&Place| place.bounds[1][1] - level > SAME * (place.bounds[1][1] - place.bounds[0][1]);
+    let table = case.water.as_ref().and_then(|water| water.phreatic.as_ref()?.first());
+    let Some(table) = table else { return Vec::new() };
+    let level = |place: &Place| table.highest_at_first(place.bounds.map(|x| x[0]));
+    let reaches = |place: &&Place| place.bounds[1][1] - level(place) > SAME * (place.bounds[1][1] - place.bounds[0][1]);
     let is_undrained = |place: &&Place| {
         let soil = case.content(&place.name).filter(|content| !content.is_structure());
         let material = soil.and_then(|content| content.material());
@@ -86,10 +87,11 @@ fn above_water(case: &Case, places: &[Place]) -> Vec<String> {
     };
     let warning = |place: &Place| {
         format!(
-            "warning: the undrained soil `{}` reaches {:.3} m above the `phreatic_level` at y = {level} m: its pores count as full of water there, \
+            "warning: the undrained soil `{}` reaches {:.3} m above the `phreatic_level` at y = {} m: its pores count as full of water there, \
              too, and take excess pressure; if they are not, make that part a region of its own with a drained material",
             place.name,
-            place.bounds[1][1] - level
+            place.bounds[1][1] - level(place),
+            level(place)
         )
     };
     places.iter().filter(is_undrained).filter(reaches).map(warning).collect()

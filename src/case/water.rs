@@ -10,8 +10,9 @@ use crate::error::Result;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::run::Acting;
-use crate::term::{self, FacetPressure, Hydrostatic, SurfaceTraction, Term, VirtualPressure, WaterLevels};
+use crate::term::{self, FacetPressure, Hydrostatic, Phreatic, SurfaceTraction, Term, VirtualPressure, WaterLevels};
 use crate::time_value::TimeValue;
+use crate::water_table::{WaterLine, WaterTable};
 
 /// Half the height of the band over which a pressure begins to grow, as a share of the diagonal of a cell:
 /// a quarter of its side.
@@ -24,23 +25,26 @@ impl Checker {
         if whole.is_some_and(|water| water.level.is_none() && water.phreatic_level.is_none()) {
             self.issue(&path, At::Key, "the water has no level", "add `level: …` or `phreatic_level: …`");
         }
-        let of_phases = |of: fn(&raw::Phase) -> &Option<raw::InTime>| file.phases.iter().map(of).collect::<Vec<_>>();
+        let of_phases =
+            |of: fn(&raw::Phase) -> &Option<raw::WaterTable>| file.phases.iter().map(of).collect::<Vec<_>>();
         let outside = whole.and_then(|water| water.level.as_ref());
-        let level = self.levels(["level", "water_level"], outside, of_phases(|phase| &phase.water_level), root);
+        let level = self.tables(["level", "water_level"], outside, of_phases(|phase| &phase.water_level), root);
         let inside = whole.and_then(|water| water.phreatic_level.as_ref());
         let of_pores = of_phases(|phase| &phase.phreatic_level);
-        let phreatic = self.levels(["phreatic_level"; 2], inside, of_pores, root);
+        let phreatic = self.tables(["phreatic_level"; 2], inside, of_pores, root);
+        // What is inclined has been refused.
+        let level = level.map(|tables| tables.iter().filter_map(WaterTable::level).cloned().collect());
         Some(Water { unit_weight: whole?.unit_weight, level, phreatic })
     }
 
-    /// A level in each phase, given that of the whole case and those of the phases, by the keys of both.
-    fn levels(
+    /// A water table in each phase, given that of the whole case and those of the phases, by the keys of both.
+    fn tables(
         &mut self,
         [key, of_phase]: [&str; 2],
-        whole: Option<&raw::InTime>,
-        own: Vec<&Option<raw::InTime>>,
+        whole: Option<&raw::WaterTable>,
+        own: Vec<&Option<raw::WaterTable>>,
         root: &Path,
-    ) -> Option<Vec<TimeValue>> {
+    ) -> Option<Vec<WaterTable>> {
         let path = |i: usize| root.key("phases").index(i).key(of_phase);
         let Some(whole) = whole else {
             for (i, _) in own.iter().enumerate().filter(|(_, level)| level.is_some()) {
@@ -49,55 +53,78 @@ impl Checker {
             }
             return None;
         };
-        let whole = self.in_time(whole, &root.key("water").key(key));
-        let levels = own.into_iter().enumerate().map(|(i, level)| match level {
-            Some(level) => self.in_time(level, &path(i)),
+        let whole = self.table(whole, key, &root.key("water").key(key));
+        let tables = own.into_iter().enumerate().map(|(i, table)| match table {
+            Some(table) => self.table(table, key, &path(i)),
             None => whole.clone(),
         });
-        Some(levels.collect())
+        Some(tables.collect())
+    }
+
+    fn table(&mut self, table: &raw::WaterTable, key: &str, path: &Path) -> WaterTable {
+        let line = match table {
+            raw::WaterTable::Level(level) => return WaterTable::Level(self.in_time(level, path)),
+            raw::WaterTable::Line(raw::WaterLine { line }) => line,
+        };
+        if key == "level" {
+            let remedy = "give one height here; only the `phreatic_level`, that in the pores, may be a line";
+            self.issue(path, At::Value, "the surface of water outside of the soil is level", remedy);
+            return WaterTable::Level(TimeValue::Constant(0.0));
+        }
+        if let Some(i) = line.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
+            let problem = format!("x = {} m does not come after {} m", line[i + 1][0], line[i][0]);
+            let remedy = "sort the places by x, each x once";
+            self.issue(&path.key("line").index(i + 1), At::Value, problem, remedy);
+        }
+        WaterTable::Line(WaterLine(line.as_slice().into()))
     }
 }
 
 impl Water {
     /// The pressure of the water outside in each phase, over cells of the size `size` (m).
     pub fn heads(&self, size: f64) -> Vec<Option<Hydrostatic>> {
-        self.below(self.level.as_deref(), size)
+        self.level.iter().flatten().map(|level| Some(self.below(level.clone(), size))).collect()
     }
 
     /// That of the water in the pores.
-    pub fn heads_in_pores(&self, size: f64) -> Vec<Option<Hydrostatic>> {
-        self.below(self.phreatic.as_deref(), size)
+    pub fn heads_in_pores(&self, size: f64) -> Vec<Option<Phreatic>> {
+        let head = |table: &WaterTable| match table {
+            WaterTable::Level(level) => Phreatic::from(self.below(level.clone(), size)),
+            WaterTable::Line(line) => Phreatic::under(line.clone(), self.below(TimeValue::Constant(0.0), size)),
+        };
+        self.phreatic.iter().flatten().map(|table| Some(head(table))).collect()
     }
 
     /// Both, where they differ in some phase: friction has no share in what the one has more than the other.
     pub fn levels(&self, size: f64) -> Option<WaterLevels> {
-        let differ = self.phreatic.is_some() && self.phreatic != self.level;
+        let in_pores = self.phreatic.as_ref()?;
+        let same = |outside: &Vec<TimeValue>| in_pores.iter().map(WaterTable::level).eq(outside.iter().map(Some));
+        let differ = !self.level.as_ref().is_some_and(same);
         differ.then(|| WaterLevels::new(self.heads(size), self.heads_in_pores(size)))
     }
 
-    fn below(&self, levels: Option<&[TimeValue]>, size: f64) -> Vec<Option<Hydrostatic>> {
-        let head = |level: &TimeValue| Hydrostatic {
+    fn below(&self, datum: TimeValue, size: f64) -> Hydrostatic {
+        Hydrostatic {
             top: TimeValue::Constant(0.0),
             gradient: TimeValue::Constant(self.unit_weight),
-            datum: level.clone(),
+            datum,
             band: BAND * size,
-        };
-        levels.unwrap_or_default().iter().map(|level| Some(head(level))).collect()
+        }
     }
 
     /// The pressure (kPa) outside at height `y` (m) as the run begins.
     pub fn at_first(&self, y: f64) -> f64 {
-        self.pressure_at_first(self.level.as_deref(), y)
+        let level = self.level.as_ref().and_then(|levels| levels.first());
+        level.map_or(0.0, |level| self.pressure(level.at(0.0), y))
     }
 
-    /// That in the pores; `None` where they have no water.
-    pub fn in_pores_at_first(&self, y: f64) -> Option<f64> {
-        self.phreatic.as_ref().map(|levels| self.pressure_at_first(Some(levels), y))
+    /// That in the pores at a place (m); `None` where they have no water.
+    pub fn in_pores_at_first(&self, [x, y]: [f64; 2]) -> Option<f64> {
+        Some(self.pressure(self.phreatic.as_ref()?.first()?.at_first(x), y))
     }
 
-    fn pressure_at_first(&self, levels: Option<&[TimeValue]>, y: f64) -> f64 {
-        let level = levels.and_then(|levels| levels.first());
-        level.map_or(0.0, |level| self.unit_weight * (level.at(0.0) - y).max(0.0))
+    fn pressure(&self, level: f64, y: f64) -> f64 {
+        self.unit_weight * (level - y).max(0.0)
     }
 }
 
@@ -220,7 +247,7 @@ pub fn values<'a>(case: &'a Case, number: usize, phase: &'a Phase) -> impl Itera
         let pressure = load.pressure.iter().flat_map(|p| [&p.top, &p.gradient]);
         pressure.chain([&load.shear]).chain(&load.components)
     };
-    let levels = case.water.iter().flat_map(|water| water.level.iter().chain(&water.phreatic));
-    let level = levels.filter_map(move |levels| levels.get(number));
-    phase.surface_loads.iter().flat_map(of_load).chain(level)
+    let outside = case.water.iter().filter_map(move |water| water.level.as_ref()?.get(number));
+    let in_pores = case.water.iter().filter_map(move |water| water.phreatic.as_ref()?.get(number)?.level());
+    phase.surface_loads.iter().flat_map(of_load).chain(outside).chain(in_pores)
 }

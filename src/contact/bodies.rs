@@ -8,11 +8,12 @@
 
 use super::along::{Mark, lines};
 use super::constraint::{Constraint, Entry, FADING, add};
-use super::interface::{Ground, Interface, NORMAL, Pushed, Sides, TANGENTIAL};
+use super::interface::{Ground, Interface, Pushed, TANGENTIAL};
 use super::law::Penalty;
 use super::motion::{PARTS, Spot};
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
+use super::sides::Sides;
 use super::surface::{Run, Segment, Surface};
 use crate::geometry::{Hit, Lines, distance, dot, foot, way};
 use crate::kinematics::Kinematics;
@@ -186,9 +187,9 @@ fn at(surface: &Surface, facet: &[u32], xi: f64, position: &dyn Fn(u32) -> [f64;
 struct Sum {
     area: f64,
     gap: f64,
-    /// Excess pressure of the pore water, and height, times the area.
+    /// Excess pressure of the pore water, and place, times the area.
     water: f64,
-    height: f64,
+    place: [f64; 2],
     /// Of the parts: area, arc length along the boundary, and gap (m).
     spots: Vec<Spot>,
     sides: [Vec<Entry<2, 2>>; 2],
@@ -254,7 +255,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                     sum.area += weight;
                     sum.gap += weight * across.gap;
                     sum.water += weight * water;
-                    sum.height += weight * point.x[1];
+                    sum.place = [0, 1].map(|d| sum.place[d] + weight * point.x[d]);
                     for (side, (facet, values, sign)) in sum.sides.iter_mut().zip(&facets) {
                         for (&node, value) in facet.iter().zip(values) {
                             let by = sign * weight * value;
@@ -283,7 +284,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                 contact_node: contact_node as u32,
                 area,
                 gap: sum.gap / area,
-                height: self.soil.as_ref().map(|_| sum.height / area),
+                wet: self.soil.as_ref().map(|_| sum.place.map(|x| x / area)),
                 own: sum.sides[0].len(),
                 nodes: entries().map(|e| e.0).collect(),
                 by_normal: by(0),
@@ -295,7 +296,7 @@ impl<K: Kinematics<2>> Interface<2> for Bodies<K> {
                 penalty: Penalty {
                     pressure: held.pressure[contact_node],
                     shear: held.shear[contact_node],
-                    normal: NORMAL * stiffness,
+                    normal: self.sides.penalty() * stiffness,
                     tangential: TANGENTIAL * stiffness,
                     rounding: 0.0,
                     fading: FADING * self.surface.spacing,

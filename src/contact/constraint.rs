@@ -16,8 +16,8 @@ pub struct Constraint<const D: usize> {
     pub area: f64,
     /// Mean gap (m) at the beginning of the step.
     pub gap: f64,
-    /// Mean height y (m) of it where there are pores that water may stand in.
-    pub height: Option<f64>,
+    /// Its mean place [x, y] (m) where there are pores that water may stand in.
+    pub wet: Option<[f64; 2]>,
     /// The nodes of the structure, `own` of them that bear the force on it, then those of the grid.
     pub nodes: Vec<u32>,
     pub own: usize,

@@ -4,10 +4,11 @@ use super::along::{Mark, lines};
 use super::constraint::{Constraint, Entry, FADING, add};
 use super::cover::covers;
 use super::gap::{Facing, Gap, Soil, project_out, raw_gaps};
-use super::law::{Laws, Penalty};
+use super::law::Penalty;
 use super::motion::Spot;
 use super::multipliers::Multipliers;
 use super::place::{Placed, Segments};
+use super::sides::Sides;
 use super::surface::{Run, Segment, Surface};
 use crate::kinematics::Kinematics;
 use crate::material::Model;
@@ -21,8 +22,6 @@ use std::marker::PhantomData;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// Normal penalty ε_n (-), in Young's modulus over the spacing of the contact nodes.
-pub(super) const NORMAL: f64 = 50.0;
 /// Tangential penalty ε_t (-), in the same.
 pub(super) const TANGENTIAL: f64 = 5.0;
 /// Both are this part (-) over soil that may yield.
@@ -66,18 +65,6 @@ pub struct Pushed {
     pub points: usize,
     /// The farthest move (m).
     pub most: f64,
-}
-
-/// Who is in contact, and by what law.
-#[derive(Clone, Debug)]
-pub struct Sides {
-    /// The region of the structure.
-    pub structure: u16,
-    /// The region of what it touches, if that is a body and not soil.
-    pub against: Option<u16>,
-    /// The regions of the soil that it touches; none of a body.
-    pub soils: Vec<u16>,
-    pub laws: Laws,
 }
 
 /// A structure and what it touches.
@@ -163,7 +150,7 @@ impl<K: Kinematics<2>> Boundary<K> {
         Penalty {
             pressure: held.pressure[contact_node],
             shear: held.shear[contact_node],
-            normal: NORMAL * stiffness,
+            normal: self.sides.penalty() * stiffness,
             tangential: TANGENTIAL * stiffness,
             rounding: if yields { ROUNDING * held.mean_pressure() } else { 0.0 },
             fading: FADING * self.surface.spacing,
@@ -225,10 +212,10 @@ struct Sum {
     facing: f64,
     distance: f64,
     spacing: f64,
-    /// Shear strength of the soil, excess pressure of the pore water, and height, times the area.
+    /// Shear strength of the soil, excess pressure of the pore water, and place, times the area.
     strength: f64,
     water: f64,
-    height: f64,
+    place: [f64; 2],
     point: u32,
     entries: Vec<Entry<2, 2>>,
     /// Of its parts, where it was apart: area, arc length along the boundary, and gap (m).
@@ -309,7 +296,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                     sum.strength += weight * strength;
                 }
                 sum.water += weight * water;
-                sum.height += weight * placed.middle[1];
+                sum.place = [0, 1].map(|d| sum.place[d] + weight * placed.middle[d]);
                 if pointwise && held.apart[contact_node as usize] {
                     sum.spots.extend(spots.iter().map(|spot| Spot { share: share * spot.share, ..*spot }));
                 }
@@ -323,7 +310,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
         }
         let loops = segments.loops(&self.surface);
         let constraint = |(contact_node, sum): (usize, Option<Sum>)| {
-            let Sum { area, open, curvature, facing, distance, spacing, strength, water, height, point, .. } =
+            let Sum { area, open, curvature, facing, distance, spacing, strength, water, place, point, .. } =
                 *sum.as_ref().filter(|sum| sum.area > 0.0)?;
             let Sum { mut entries, spots, .. } = sum?;
             let spacing = spacing / area;
@@ -338,7 +325,7 @@ impl<K: Kinematics<2>> Interface<2> for Boundary<K> {
                 contact_node: contact_node as u32,
                 area,
                 gap,
-                height: Some(height / area),
+                wet: Some(place.map(|x| x / area)),
                 own: entries.iter().filter(|(n, _)| structure.contains(n)).count(),
                 nodes: entries.iter().map(|e| e.0).collect(),
                 by_normal: by(0),

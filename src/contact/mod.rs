@@ -17,15 +17,17 @@ mod motion;
 mod multipliers;
 mod place;
 mod rigid;
+mod sides;
 mod smoothing;
 mod surface;
 
 pub use along::{Mark, Tractions};
 pub use bodies::{Bodies, SoilSide};
 pub use constraint::Constraint;
-pub use interface::{Boundary, Ground, Interface, Pushed, Sides};
+pub use interface::{Boundary, Ground, Interface, Pushed};
 pub use law::{Answer, Law, Laws, Penalty};
 pub use motion::{Motion, Spot};
 pub use multipliers::Multipliers;
 pub use rigid::Rigid;
+pub use sides::Sides;
 pub use surface::{Run, Surface};

@@ -5,8 +5,9 @@
 
 use super::along::Mark;
 use super::constraint::{Constraint, Entry, add};
-use super::interface::{Ground, Interface, Pushed, Sides};
+use super::interface::{Ground, Interface, Pushed};
 use super::multipliers::Multipliers;
+use super::sides::Sides;
 use super::surface::Run;
 use crate::points::Points;
 use crate::rigid::Body;
@@ -179,7 +180,7 @@ mod tests {
 
     fn sides() -> Sides {
         let law = Law { friction: 0.0, adhesion: 0.0, factor: None, tension: 0.0, sealed: false };
-        Sides { structure: 0, against: None, soils: Vec::new(), laws: law.into() }
+        Sides { structure: 0, against: None, soils: Vec::new(), laws: law.into(), is_support: false }
     }
 
     fn constraint() -> Constraint<2> {
@@ -187,7 +188,7 @@ mod tests {
             contact_node: 0,
             area: 1.0,
             gap: 0.3,
-            height: None,
+            wet: None,
             nodes: vec![0, 1, 2],
             own: 2,
             by_normal: vec![[-0.2, -0.3], [-0.4, -0.1], [0.6, 0.4]],

@@ -62,12 +62,17 @@ fn acting(case: &Case) -> Vec<(String, String)> {
         if !fixed.is_empty() {
             add(&support.curve, format!("{} = 0", fixed.join(" = ")));
         }
+        if support.across {
+            add(&support.curve, "un = 0".to_owned());
+        }
         if support.drained {
             add(&support.curve, "drained".to_owned());
         }
     }
     for contact in &case.contacts {
-        if let Touching::Wall(curve) = &contact.structure {
+        if let Touching::Wall(curve) = &contact.structure
+            && !case.supports.iter().any(|support| support.across && support.curve == *curve)
+        {
             add(curve, "a wall".to_owned());
         }
     }

@@ -60,9 +60,10 @@ pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
-pub use removal::Removal;
 pub use report::Report;
-pub use scene::{FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Restore, Scene, Search, StepSize, Stop, Water};
+pub use scene::{
+    FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Removal, Restore, Scene, Search, StepSize, Stop, Water,
+};
 pub use search::kink;
 pub use state::{Span, State};
 pub use water::Balance;

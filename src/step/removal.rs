@@ -10,15 +10,6 @@ use super::unbalanced;
 use super::work;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
-use crate::quadrature::Parting;
-
-/// The soil that a phase removes.
-pub struct Removal<const D: usize> {
-    /// Whether each region goes.
-    pub regions: Vec<bool>,
-    /// Where the rest ends.
-    pub parting: Box<dyn Parting<D>>,
-}
 
 /// Removes the soil that goes as the phase in hand begins, on a reset grid; false where nothing of it is there.
 ///

@@ -1,13 +1,12 @@
 //! A scene: everything that does not change while it is solved.
 
 use super::change::Change;
-use super::removal::Removal;
 use crate::contact::Interface;
 use crate::dofs::{Places, RigidDofs};
 use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::quadrature::Quadrature;
+use crate::quadrature::{Parting, Quadrature};
 use crate::rigid::Body;
 use crate::system::LinearConstraints;
 use crate::term::{MixedPressure, Porous, Term, WaterLevels};
@@ -265,6 +264,14 @@ impl Phase {
         let moves = |p: &Prescribed| self.times().any(|time| p.displacement.at(time) != 0.0);
         self.prescribed.iter().filter(move |p| p.fixed.nodes.iter().all(|&n| (n as usize) < end) && moves(p))
     }
+}
+
+/// The soil that a phase removes.
+pub struct Removal<const D: usize> {
+    /// Whether each region goes.
+    pub regions: Vec<bool>,
+    /// Where the rest ends.
+    pub parting: Box<dyn Parting<D>>,
 }
 
 /// How far soil may move without inertia (-), over its height: farther counts as failure in a strength reduction, and gives a warning

@@ -42,7 +42,7 @@ pub fn answer<const D: usize>(
     }
     let law = law.reduced(trial.reduction);
     let beyond =
-        levels.zip(constraint.condition.height).map_or(0.0, |(levels, y)| levels.beyond(trial.phase, trial.time, y));
+        levels.zip(constraint.condition.wet).map_or(0.0, |(levels, x)| levels.beyond(trial.phase, trial.time, x));
     let penalty = constraint.condition.penalty.in_water(beyond);
     let spots = &constraint.condition.spots;
     let first = constraint.initially_closed && law.friction > 0.0;

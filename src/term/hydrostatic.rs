@@ -7,6 +7,7 @@
 //! whatever moves have the sharp one.
 
 use crate::time_value::TimeValue;
+use crate::water_table::WaterLine;
 
 /// A pressure (kPa, compression positive) in a phase's own time.
 #[derive(Clone, Debug, PartialEq)]
@@ -64,9 +65,81 @@ impl Momentary {
     }
 }
 
+/// The pressure of the water in the pores, hydrostatic along each vertical below a table that may be inclined.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Phreatic {
+    /// That by the height above the line, where there is one.
+    head: Hydrostatic,
+    line: Option<WaterLine>,
+}
+
+impl From<Hydrostatic> for Phreatic {
+    fn from(head: Hydrostatic) -> Self {
+        Self { head, line: None }
+    }
+}
+
+impl Phreatic {
+    /// That below a line, given the pressure by the height above it.
+    pub fn under(line: WaterLine, head: Hydrostatic) -> Self {
+        Self { head, line: Some(line) }
+    }
+
+    /// The pressure at time `t` (s).
+    pub fn at(&self, t: f64) -> MomentaryPhreatic<'_> {
+        MomentaryPhreatic { head: self.head.at(t), line: self.line.as_ref() }
+    }
+}
+
+/// That pressure at one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MomentaryPhreatic<'a> {
+    /// The pressure by [`MomentaryPhreatic::height`], and the line where the table is one.
+    pub head: Momentary,
+    pub line: Option<&'a WaterLine>,
+}
+
+impl MomentaryPhreatic<'_> {
+    /// Whether the table is a line.
+    pub fn is_inclined(&self) -> bool {
+        self.line.is_some()
+    }
+
+    /// The height (m) of a place that the pressure goes by: that above the line, or above y = 0 without one.
+    pub fn height(&self, x: f64, y: f64) -> f64 {
+        self.line.map_or(y, |line| y - line.at(x))
+    }
+
+    /// The pressure (kPa) at a place (m), with its derivatives by `x` and by `y`.
+    pub fn at(&self, x: f64, y: f64) -> [f64; 3] {
+        let [p, by_y, _] = self.head.at(self.height(x, y));
+        [p, self.line.map_or(0.0, |line| -by_y * line.slope(x)), by_y]
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn water_in_the_pores_goes_by_the_depth_below_the_line() {
+        let [top, gradient, zero] = [0.0, 10.0, 0.0].map(TimeValue::Constant);
+        let line = WaterLine(vec![[0.0, 2.0], [10.0, 4.0]].into());
+        let head = Hydrostatic { top, gradient, datum: zero, band: 0.1 };
+        let phreatic = Phreatic::under(line, head.clone());
+        let at = |x, y| phreatic.at(0.0).at(x, y);
+        assert!((at(5.0, 1.0)[0] - 20.0).abs() < 1e-12 && at(5.0, 3.2) == [0.0; 3]);
+        assert!((at(-5.0, 1.0)[0] - 10.0).abs() < 1e-12 && at(15.0, 1.0) == [30.0, 0.0, -10.0]);
+        let h = 1e-6;
+        for (x, y) in [(3.0, 1.0), (3.0, 2.62)] {
+            let [_, by_x, by_y] = at(x, y);
+            let difference =
+                [at(x + h, y)[0] - at(x - h, y)[0], at(x, y + h)[0] - at(x, y - h)[0]].map(|d| 0.5 * d / h);
+            assert!((by_x - difference[0]).abs() < 1e-6 && (by_y - difference[1]).abs() < 1e-6, "{x} {y}");
+        }
+        let [p, _, by_y] = Phreatic::from(head.clone()).at(0.0).at(3.0, -1.0);
+        assert_eq!([p, by_y], [0, 1].map(|k| head.at(0.0).at(-1.0)[k]));
+    }
 
     #[test]
     fn the_sharp_one_is_nothing_from_its_level_on() {

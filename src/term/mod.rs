@@ -42,7 +42,7 @@ pub use facet_pressure::FacetPressure;
 pub use ghost::GhostPenalty;
 pub use ghost_inertia::{GhostInertia, MASS_PENALTY};
 pub use history::{Dissipated, Histories, History, Update};
-pub use hydrostatic::Hydrostatic;
+pub use hydrostatic::{Hydrostatic, Phreatic};
 pub use inertia::Inertia;
 pub use internal::Internal;
 pub use mixed::{Mixed, Ratios};

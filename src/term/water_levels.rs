@@ -4,27 +4,25 @@
 //! The water outside presses on both, also where they touch, and contact exerts what they bear beyond it. So the whole pressure there is
 //! `p + p_out`, and of it the pores have `u` and the grains the rest, `p − (u − p_out)`, whichever of the levels is the higher one.
 
-use super::hydrostatic::Hydrostatic;
+use super::hydrostatic::{Hydrostatic, Phreatic};
 
 /// The pressures by phase.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WaterLevels {
     outside: Vec<Option<Hydrostatic>>,
-    inside: Vec<Option<Hydrostatic>>,
+    inside: Vec<Option<Phreatic>>,
 }
 
 impl WaterLevels {
     /// `outside[i]` and `inside[i]`, in the pores, act in phase `i`; either is empty where there is no such water.
-    pub fn new(outside: Vec<Option<Hydrostatic>>, inside: Vec<Option<Hydrostatic>>) -> Self {
+    pub fn new(outside: Vec<Option<Hydrostatic>>, inside: Vec<Option<Phreatic>>) -> Self {
         Self { outside, inside }
     }
 
-    /// `u − p_out` (kPa) in a phase at the time `t` (s) since it began and the height `y` (m).
-    pub fn beyond(&self, phase: usize, t: f64, y: f64) -> f64 {
-        let [inside, outside] = [&self.inside, &self.outside].map(|heads| {
-            let head = heads.get(phase).and_then(Option::as_ref);
-            head.map_or(0.0, |head| head.at(t).at(y)[0])
-        });
+    /// `u − p_out` (kPa) in a phase at the time `t` (s) since it began and the place `[x, y]` (m).
+    pub fn beyond(&self, phase: usize, t: f64, [x, y]: [f64; 2]) -> f64 {
+        let inside = self.inside.get(phase).and_then(Option::as_ref).map_or(0.0, |head| head.at(t).at(x, y)[0]);
+        let outside = self.outside.get(phase).and_then(Option::as_ref).map_or(0.0, |head| head.at(t).at(y)[0]);
         inside - outside
     }
 }
@@ -41,7 +39,10 @@ mod tests {
             let [top, gradient, datum] = [0.0, 10.0, datum].map(TimeValue::Constant);
             vec![Some(Hydrostatic { top, gradient, datum, band: 0.1 })]
         };
-        let at = |outside: Vec<Option<Hydrostatic>>, inside, y| WaterLevels::new(outside, inside).beyond(0, 0.0, y);
+        let at = |outside, inside: Vec<Option<Hydrostatic>>, y| {
+            let inside = inside.into_iter().map(|head| head.map(Phreatic::from)).collect();
+            WaterLevels::new(outside, inside).beyond(0, 0.0, [7.0, y])
+        };
         assert!((at(below(1.0), below(3.0), -2.0) - 20.0).abs() < 1e-12);
         assert!((at(below(3.0), below(1.0), -2.0) + 20.0).abs() < 1e-12);
         assert!((at(below(1.0), below(3.0), 2.0) - 10.0).abs() < 1e-12);

@@ -19,6 +19,7 @@ const LAYERS: [&[&str]; 7] = [
         "tensor",
         "time_integration",
         "time_value",
+        "water_table",
     ],
     &["material", "mesh"],
     &["contact", "dofs", "kinematics", "points", "quadrature", "rigid", "seed", "interpolation", "surface", "system"],

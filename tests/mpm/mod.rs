@@ -30,6 +30,7 @@ mod point_loads;
 mod random_scenes;
 mod random_strength;
 mod resampled;
+mod rollers;
 mod rotation;
 mod scheme;
 mod scripts;

@@ -6,7 +6,7 @@ use crate::terms::loads::anywhere;
 use mpm::contact::{Constraint, Law, Penalty, Spot};
 use mpm::kinematics::PlaneStrain;
 use mpm::mesh::shape::CellKind;
-use mpm::term::{Contact, Hydrostatic, PlacedConstraint, WaterLevels};
+use mpm::term::{Contact, Hydrostatic, Phreatic, PlacedConstraint, WaterLevels};
 use mpm::time_value::TimeValue;
 
 fn law(friction: f64, adhesion: f64, factor: Option<f64>) -> Law {
@@ -39,7 +39,7 @@ fn stand_in_water(law: Law, apart: f64, levels: Option<WaterLevels>) -> Stand<Pl
         let constraint = Constraint {
             contact_node,
             area: 0.3 + 0.1 * angle,
-            height: Some(angle),
+            wet: Some([0.0, angle]),
             gap: if contact_node == 0 { apart } else { -1e-3 * angle },
             by_normal: weights.iter().map(|w| normal.map(|n| w * n)).collect(),
             by_tangent: weights.iter().map(|w| [-normal[1] * w, normal[0] * w]).collect(),
@@ -106,7 +106,8 @@ fn water_levels_do_not_change_with_the_motion() {
         vec![Some(Hydrostatic { top, gradient, datum, band: 0.1 })]
     };
     for [outside, inside] in [[1.0, 4.0], [4.0, 1.0]] {
-        let levels = || Some(WaterLevels::new(below(outside), below(inside)));
+        let in_pores = || below(inside).into_iter().map(|head| head.map(Phreatic::from)).collect();
+        let levels = || Some(WaterLevels::new(below(outside), in_pores()));
         let stand = stand_in_water(law(0.02, 0.0, None), 10.0, levels());
         let dry = stand_in_water(law(0.02, 0.0, None), 10.0, None);
         let mut differ = false;

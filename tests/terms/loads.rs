@@ -9,9 +9,10 @@ use mpm::mesh::Mesh;
 use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
 use mpm::surface::{ActiveBoundary, Path, Piece};
-use mpm::term::{BodyForce, EmptyCells, FacetPressure, Hydrostatic, Inertia, Role, Term, Traction, VirtualPressure};
-use mpm::term::{Source, SurfaceLoad, SurfaceTraction};
+use mpm::term::{BodyForce, EmptyCells, FacetPressure, Hydrostatic, Inertia, Phreatic, Role, Term, Traction};
+use mpm::term::{Source, SurfaceLoad, SurfaceTraction, VirtualPressure};
 use mpm::time_value::TimeValue;
+use mpm::water_table::WaterLine;
 use std::f64::consts::{PI, TAU};
 
 pub type Make = fn(&Mesh<2>) -> Box<dyn Term<2>>;
@@ -230,13 +231,27 @@ fn lower() -> Vec<Option<Hydrostatic>> {
     vec![Some(Hydrostatic { top, gradient, datum, band: 0.1 }), None]
 }
 
-/// Water in the pores up to another level than outside, up to the same, and without any outside.
+/// The same as water in the pores.
+fn in_pores(heads: Vec<Option<Hydrostatic>>) -> Vec<Option<Phreatic>> {
+    heads.into_iter().map(|head| head.map(Phreatic::from)).collect()
+}
+
+/// Water in the pores below a line without corners within the mesh.
+fn inclined() -> Vec<Option<Phreatic>> {
+    let [top, gradient, datum] = [0.0, 10.0, 0.0].map(TimeValue::Constant);
+    let line = WaterLine(vec![[-5.0, -0.5], [9.0, 2.3]].into());
+    vec![Some(Phreatic::under(line, Hydrostatic { top, gradient, datum, band: 0.1 })), None]
+}
+
+/// Water in the pores up to another level than outside, up to the same, without any outside, and below a line.
 fn water_in_pores<K: Kinematics<2>>() {
-    let terms: [Make; 4] = [
-        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(head(), vec![true])),
-        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(head(), vec![false])),
-        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(lower(), vec![true])),
-        |_| Box::new(VirtualPressure::<K>::new(Vec::new()).with_pores(head(), vec![true])),
+    let terms: [Make; 6] = [
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(inclined(), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(Vec::new()).with_pores(inclined(), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(in_pores(head()), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(in_pores(head()), vec![false])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(in_pores(lower()), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(Vec::new()).with_pores(in_pores(head()), vec![true])),
     ];
     for (number, make) in terms.into_iter().enumerate() {
         for kind in KINDS {
@@ -279,10 +294,12 @@ fn filled<K: Kinematics<2>>(kind: CellKind, make: Make, inside: fn(&[f64; 2]) ->
 
 /// Where it bends in the cells and the surface is known, the pressure is summed over other places than the points.
 fn in_layers<K: Kinematics<2>>() {
-    let terms: [Make; 3] = [
+    let terms: [Make; 5] = [
         |_| Box::new(VirtualPressure::<K>::new(head())),
-        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(head(), vec![true])),
-        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(lower(), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(inclined(), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(Vec::new()).with_pores(inclined(), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(in_pores(head()), vec![true])),
+        |_| Box::new(VirtualPressure::<K>::new(head()).with_pores(in_pores(lower()), vec![true])),
     ];
     for (number, make) in terms.into_iter().enumerate() {
         for kind in KINDS {

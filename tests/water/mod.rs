@@ -4,6 +4,7 @@ mod boundary_pressure;
 mod covered_surface;
 mod drained_soil;
 mod drained_surface;
+mod inclined_table;
 mod phreatic;
 mod pore_water;
 mod terzaghi;

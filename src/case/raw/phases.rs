@@ -1,6 +1,6 @@
 //! Phases as they are written: steps, motions, loads, and what ends a phase.
 
-use super::{Profile, Quantity, Tension};
+use super::{Profile, Quantity, Tension, WaterTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -26,9 +26,9 @@ pub struct Phase {
     #[serde(default)]
     pub tractions: Vec<Traction>,
     /// Height y of the water level outside in this phase (m). Default: that of `water`.
-    pub water_level: Option<InTime>,
-    /// Height y of the water level in the pores in this phase (m). Default: that of `water`.
-    pub phreatic_level: Option<InTime>,
+    pub water_level: Option<WaterTable>,
+    /// Height y of the water level in the pores in this phase, or a line (m). Default: that of `water`.
+    pub phreatic_level: Option<WaterTable>,
     /// Factor on gravity in the phase (-), or its components, each an acceleration (m/s²). Default: 1.
     pub gravity: Option<PhaseGravity>,
     /// Structures, walls and contacts, by name, that are taken away as the phase begins: until they are activated they carry

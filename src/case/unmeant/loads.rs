@@ -161,10 +161,10 @@ fn of_surface<'a>(case: &Case, load: &'a SurfaceLoad) -> Vec<(String, &'a TimeVa
 /// The levels of the water in phase `k`.
 fn levels(case: &Case, k: usize) -> Vec<(String, &TimeValue)> {
     let Some(water) = &case.water else { return Vec::new() };
-    let of = |(name, levels): (&str, &'_ Option<Vec<TimeValue>>)| levels.as_ref().map(|_| name.to_owned());
-    let names = [("the water level", &water.level), ("the phreatic level", &water.phreatic)].map(of);
-    let values = [&water.level, &water.phreatic].map(|levels| levels.as_ref().and_then(|levels| levels.get(k)));
-    names.into_iter().zip(values).filter_map(|(name, value)| Some((name?, value?))).collect()
+    let outside = water.level.as_ref().and_then(|levels| levels.get(k));
+    let in_pores = water.phreatic.as_ref().and_then(|tables| tables.get(k)?.level());
+    let values = [("the water level", outside), ("the phreatic level", in_pores)];
+    values.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }
 
 /// A warning for each table with times after the end of phase `k`.
