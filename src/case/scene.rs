@@ -1,5 +1,4 @@
-//! From a checked case to a scene: the only place that decides which terms exist, but for those that an entry of the case brings
-//! with it ([`super::keyed`]).
+//! From a checked case to a scene: the only place that decides which terms exist.
 
 use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore, Touched};
 use super::find::{filled, mean_size, region_index, regions};
