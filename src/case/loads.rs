@@ -23,7 +23,9 @@ impl Checker {
         for (i, traction) in phase.tractions.iter().enumerate() {
             let path = path.index(i);
             match (&traction.on, &traction.surface) {
-                (Some(curve), None) => tractions.push(self.traction(curve, traction, file, numerics, &path)),
+                (Some(curve), None) => {
+                    tractions.push(Traction { entry: i, ..self.traction(curve, traction, file, numerics, &path) });
+                }
                 (None, Some(surface)) => {
                     let load = self.surface_load(surface, traction, file, &path);
                     if numerics.solver.restore == Restore::Never && !load.is_pressure_all_around() {
@@ -79,7 +81,7 @@ impl Checker {
         });
         let pressure = traction.pressure.as_ref();
         let pressure = pressure.map(|load| self.load_profile(load, &factor, true, &path.key("pressure")));
-        Traction { curve: curve.to_owned(), force: None, components, pressure }
+        Traction { entry: 0, curve: curve.to_owned(), force: None, components, pressure }
     }
 
     /// A force at a point.
@@ -99,7 +101,7 @@ impl Checker {
         let force = [("fx", &traction.fx), ("fy", &traction.fy)];
         let force = force.map(|(key, value)| self.or_zero(value.as_ref(), &path.key(key)));
         let none = || LoadProfile::uniform(TimeValue::Constant(0.0));
-        Traction { curve: point.to_owned(), force: Some(force), components: [none(), none()], pressure: None }
+        Traction { entry: 0, curve: point.to_owned(), force: Some(force), components: [none(), none()], pressure: None }
     }
 
     /// The components of a load on the surface, which do not vary with depth.

@@ -74,8 +74,8 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         for curve in curves {
             names.held(case, curve, &path.key("prescribe").key(curve));
         }
-        for (j, traction) in phase.tractions.iter().enumerate() {
-            names.loaded(traction, &path.key("tractions").index(j).key("on"));
+        for traction in &phase.tractions {
+            names.loaded(traction, &path.key("tractions").index(traction.entry).key("on"));
         }
     }
     for (i, entry) in case.output.history.iter().enumerate() {

@@ -59,6 +59,8 @@ pub struct Prescribed {
 /// A load on a curve, or at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traction {
+    /// The number of its entry in the phase.
+    pub entry: usize,
     /// The name of the curve or the point.
     pub curve: String,
     /// The force (kN, in plane strain per metre) at a point; `None` on a curve, which has the rest.

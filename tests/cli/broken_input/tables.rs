@@ -169,6 +169,10 @@ pub const MEANING: &[Broken] = &[
         &["tractions[0]", "one of the two", "`surface`"],
     ),
     check(
+        Case("    prescribe:", "    tractions: [{surface: all, pressure: 1}, {on: nowhere, fx: 1}]\n    prescribe:"),
+        &["tractions[1].on", "no physical point `nowhere`"],
+    ),
+    check(
         Case("    prescribe:", "    tractions: [{surface: sol, ty: -1}]\n    prescribe:"),
         &["tractions[0].surface", "not a region of kind mpm", "did you mean `soil`?"],
     ),
