@@ -44,7 +44,7 @@ use std::sync::Arc;
 use strain::{Ends, Strained, inadmissible, metric_factor, moved_nodes, strain};
 
 /// The least part (-) of the volume of the material points in a cell that its integration points stand for, if they resist a change of that volume.
-const RESISTS: f64 = 0.5;
+const RESISTS: f64 = 0.05;
 
 /// The internal force of all material points.
 pub struct Internal<K, S = ()> {
