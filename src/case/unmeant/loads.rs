@@ -102,7 +102,9 @@ fn twice(phase: &Phase) -> Vec<String> {
             phase.name
         )
     };
-    let curves = phase.tractions.iter().enumerate().filter(|(i, load)| phase.tractions[..*i].contains(load));
+    let alike = |a: &Traction, b: &Traction| Traction { entry: b.entry, ..a.clone() } == *b;
+    let before = |i: usize, load: &Traction| phase.tractions[..i].iter().any(|other| alike(other, load));
+    let curves = phase.tractions.iter().enumerate().filter(|(i, load)| before(*i, load));
     let surfaces = phase.surface_loads.iter().enumerate().filter(|(i, load)| phase.surface_loads[..*i].contains(load));
     let curves = curves.map(|(_, load)| said(format!("the load on `{}`", load.curve)));
     curves.chain(surfaces.map(|_| said("a load on the surface".to_owned()))).collect()
