@@ -5,6 +5,7 @@ use super::checked::{Case, Content, Numerics, Phase, Restore};
 use super::locate::{At, Path};
 use super::raw::{self, Analysis, RegionKind};
 use super::structure::suggest;
+use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::soil::Parting;
 use crate::step::Removal;
@@ -68,7 +69,7 @@ impl Checker {
 }
 
 /// What a phase removes from the background grid `mesh`, given its number; `None` of nothing.
-pub fn of_phase(case: &Case, mesh: &Mesh<2>, phase: usize) -> Option<Removal<2>> {
+pub fn of_phase<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, phase: usize) -> Option<Removal<2>> {
     let in_phases = |phases: &[Phase]| -> Vec<bool> {
         mesh.regions.iter().map(|name| phases.iter().any(|phase| phase.removed.contains(name))).collect()
     };
@@ -79,6 +80,6 @@ pub fn of_phase(case: &Case, mesh: &Mesh<2>, phase: usize) -> Option<Removal<2>>
     let gone = in_phases(&case.phases[..phase]);
     let is_soil = |name: &String| case.content(name).is_some_and(|content| matches!(content, Content::Mpm { .. }));
     let there: Vec<bool> = mesh.regions.iter().zip(&gone).map(|(name, gone)| is_soil(name) && !gone).collect();
-    let parting = Parting::new(mesh.clone(), &there, &removed);
+    let parting = Parting::<K>::new(mesh.clone(), &there, &removed);
     Some(Removal { regions: removed, parting: Box::new(parting) })
 }

@@ -276,7 +276,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
-    let removals = (0..case.phases.len()).map(|number| removed::of_phase(case, &mesh, number)).collect();
+    let removals = (0..case.phases.len()).map(|number| removed::of_phase::<K>(case, &mesh, number)).collect();
     let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();

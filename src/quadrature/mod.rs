@@ -87,22 +87,10 @@ pub trait Quadrature<const D: usize>: Send + Sync {
     /// Weighs the points of a restored grid. `front` is the surface of the material as followed so far, for rules
     /// that need it.
     fn weigh(&self, grid: &Restored<D>, front: &mut Option<MarkerFront>) -> Weights<D>;
-
-    /// Ends the surface, where it is followed, at what is left: where `remains` (m), one value a node, is positive. The points are found on the
-    /// reset grid `mesh`, of whose cells some are `active`.
-    fn part(
-        &self,
-        _mesh: (&Mesh<D>, &Locator<D>),
-        _points: &Points<D>,
-        _active: &[bool],
-        _remains: &[f64],
-        _front: &mut Option<MarkerFront>,
-    ) {
-    }
 }
 
 /// Soil of which a part is taken away.
 pub trait Parting<const D: usize>: Send + Sync {
-    /// How far (m) each node of the reset grid is within what is left, negative within what is taken away; no more than a few cells.
-    fn remains(&self, mesh: &Mesh<D>, points: &Points<D>) -> Vec<f64>;
+    /// Ends the surface at what is left. The points are found on the reset grid `mesh`, of whose cells some are `active`.
+    fn part(&self, mesh: (&Mesh<D>, &Locator<D>), points: &Points<D>, active: &[bool], front: &mut MarkerFront);
 }

@@ -2,8 +2,6 @@
 
 use super::{Quadrature, Restored, Volumes, Weights};
 use crate::kinematics::Kinematics;
-use crate::mesh::Mesh;
-use crate::mesh::locate::Locator;
 use crate::points::Points;
 use crate::surface::{ActiveBoundary, Behind, Contour, Distance, Geometry, Lost, MarkerFront, NO_REGION};
 
@@ -35,28 +33,6 @@ pub fn follow<K: Kinematics<2>>(
         }
     }
     Ok(())
-}
-
-/// Ends a front at what is left: where `remains` (m), one value a node, is positive.
-pub fn part<K: Kinematics<2>>(
-    (mesh, locator): (&Mesh<2>, &Locator<2>),
-    (points, active): (&Points<2>, &[bool]),
-    remains: &[f64],
-    front: &mut Option<MarkerFront>,
-) {
-    let Some(whole) = front else { return };
-    let geometry = &Geometry::new::<K>(mesh);
-    let mut distance = Distance::default();
-    distance.update(mesh, geometry, locator, whole, &points.cell, active);
-    let level: Vec<f64> = distance.level_set.iter().zip(remains).map(|(soil, remains)| soil.min(*remains)).collect();
-    let nothing = |host: u32, _: &[f64; 2]| Behind { region: NO_REGION, host };
-    let boundary = ActiveBoundary::of(mesh, geometry, &level, active, nothing);
-    let mut left = MarkerFront { position: Vec::new(), first: vec![0] };
-    for l in 0..boundary.loops() {
-        left.position.extend(boundary.corners(mesh, &mesh.nodes, l));
-        left.first.push(left.position.len() as u32);
-    }
-    *front = Some(left);
 }
 
 /// Says whether a front that begins encloses the volume of the points, but for what the offset makes up for.
@@ -170,16 +146,5 @@ impl<K: Kinematics<2>> Quadrature<2> for Bounded<K> {
             }
         };
         weights
-    }
-
-    fn part(
-        &self,
-        mesh: (&Mesh<2>, &Locator<2>),
-        points: &Points<2>,
-        active: &[bool],
-        remains: &[f64],
-        front: &mut Option<MarkerFront>,
-    ) {
-        part::<K>(mesh, (points, active), remains, front);
     }
 }

@@ -167,7 +167,11 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         bypassed.begin(scene, &simulation.state, outputs.surface.as_ref());
         if simulation.state.phase_time == 0.0 {
             jump::watch(scene, &mut simulation.state);
-            let begun = simulation.begin_phase().and_then(|notes| {
+            let resets = simulation.state.restorations;
+            let begun = simulation.begin_phase().and_then(|mut notes| {
+                if simulation.state.restorations > resets {
+                    notes.extend(record::of_reset(&simulation.state));
+                }
                 stays = ending::is_met_at_first(until, &mut simulation)?;
                 Ok(notes)
             });

@@ -4,21 +4,26 @@ use super::ON_NODE;
 use super::origin::{Origin, Outline};
 use super::recover::{Ground, Nodal, Sizes, Values};
 use crate::geometry::Line;
+use crate::kinematics::Kinematics;
+use crate::mesh::locate::Locator;
 use crate::mesh::{Mesh, cell_size};
 use crate::points::Points;
 use crate::quadrature::{self, Around, Held};
+use crate::surface::{ActiveBoundary, Behind, Distance, Geometry, MarkerFront, NO_REGION};
 use rayon::prelude::*;
+use std::marker::PhantomData;
 
 /// Soil of which some regions are taken away.
-pub struct Parting {
+pub struct Parting<K> {
     origin: Origin,
     removed: Vec<bool>,
     /// Where what is taken away meets the rest.
     between: Outline,
     around: Around,
+    kinematics: PhantomData<fn() -> K>,
 }
 
-impl Parting {
+impl<K> Parting<K> {
     /// The soil of the regions `there` on the grid `mesh`, of which some are `removed`.
     pub fn new(mesh: Mesh<2>, there: &[bool], removed: &[bool]) -> Self {
         let around = Around::of(&mesh);
@@ -28,11 +33,10 @@ impl Parting {
         let apart = |a: u32, b: u32| there[of(a)] && there[of(b)] && removed[of(a)] != removed[of(b)];
         let lines: Vec<Line<2>> = origin.lines(apart).collect();
         let between = Outline::new(lines, 2.0 * size);
-        Self { removed: removed.to_vec(), between, around, origin }
+        Self { removed: removed.to_vec(), between, around, origin, kinematics: PhantomData }
     }
-}
 
-impl quadrature::Parting<2> for Parting {
+    /// How far (m) each node of the reset grid is within what is left, negative within what is taken away; no more than a few cells.
     fn remains(&self, mesh: &Mesh<2>, points: &Points<2>) -> Vec<f64> {
         let held = Held::new(mesh.cells.len(), &points.cell);
         let filled = (0..mesh.cells.len() as u32).filter(|&c| !held.points(c).is_empty());
@@ -55,5 +59,29 @@ impl quadrature::Parting<2> for Parting {
             if region.is_some_and(|region| self.removed[region as usize]) { -distance } else { distance }
         };
         (0..mesh.nodes.len()).into_par_iter().with_min_len(256).map(level).collect()
+    }
+}
+
+impl<K: Kinematics<2>> quadrature::Parting<2> for Parting<K> {
+    fn part(
+        &self,
+        (mesh, locator): (&Mesh<2>, &Locator<2>),
+        points: &Points<2>,
+        active: &[bool],
+        front: &mut MarkerFront,
+    ) {
+        let geometry = Geometry::new::<K>(mesh);
+        let mut distance = Distance::default();
+        distance.update(mesh, &geometry, locator, front, &points.cell, active);
+        let remains = self.remains(mesh, points);
+        let level: Vec<f64> =
+            distance.level_set.iter().zip(&remains).map(|(soil, remains)| soil.min(*remains)).collect();
+        let nothing = |host: u32, _: &[f64; 2]| Behind { region: NO_REGION, host };
+        let boundary = ActiveBoundary::of(mesh, &geometry, &level, active, nothing);
+        *front = MarkerFront { position: Vec::new(), first: vec![0] };
+        for l in 0..boundary.loops() {
+            front.position.extend(boundary.corners(mesh, &mesh.nodes, l));
+            front.first.push(front.position.len() as u32);
+        }
     }
 }

@@ -29,8 +29,10 @@ pub fn remove<const D: usize, K: Kinematics<D>>(
     work::begin(scene, grid, state)?;
     grid.restore::<K>(scene, state)?;
     let (mesh, locator) = relax::mesh(scene, grid.relaxed.as_ref());
-    let remains = removal.parting.remains(mesh, &state.points);
-    scene.quadrature.part((mesh, locator), &state.points, &state.active, &remains, &mut state.front);
+    if let Some(front) = &mut state.front {
+        removal.parting.part((mesh, locator), &state.points, &state.active, front);
+    }
+    let lost = state.weights.lost_front.take();
     let stays = |&p: &usize| !removal.regions[state.points.region[p] as usize];
     let left: Vec<usize> = (0..state.points.len()).filter(stays).collect();
     state.points = state.points.select(&left);
@@ -39,6 +41,9 @@ pub fn remove<const D: usize, K: Kinematics<D>>(
         state.start_position = left.iter().map(|&p| state.start_position[p]).collect();
     }
     grid.restore::<K>(scene, state)?;
+    if lost.is_some() {
+        state.weights.lost_front = lost;
+    }
     state.increment.fill([0.0; D]);
     state.balanced = None;
     work::note(scene, grid, state, Item::Changes)?;

@@ -1,6 +1,7 @@
 //! Soil that phases remove, through the program: against the same ground without it from the start, and stage by stage.
 
 use crate::support::{column, mpm, python, run, said, solve, succeeds};
+use std::f64::consts::PI;
 
 const PIT: &str = "docs/examples/open_pit";
 const AT_ONCE: &str = "phases=[{name: dig, analysis: quasi_static, duration: 1, step: {initial: 0.1, min: 0.001}, remove: [lift1, lift2]}]";
@@ -32,6 +33,17 @@ fn elastic_ground_remembers_no_stages() {
     }
     assert!((stages[1] / once[1] - 1.0).abs() < 2e-3, "{stages:?} {once:?}");
     assert!((once[1] / never[1] - 1.0).abs() < 0.01, "{once:?} {never:?}");
+}
+
+/// A shaft about the axis: the ring that is left bears its own weight, in cells of either order.
+#[test]
+fn a_shaft_leaves_the_weight_of_the_ring() {
+    let elastic = "materials.clay={model: linear_elastic, young: 1.0e+5, poisson: 0.3, unit_weight: 18}";
+    let weight = 18.0 * PI * (64.0 * 4.0 - 9.0 * 2.0);
+    for order in ["mesh.order=1", "mesh.order=2"] {
+        let [bears, heave] = end(&["geometry=axisymmetric", elastic, order]);
+        assert!((bears / weight - 1.0).abs() < 1e-9 && heave > 0.0, "{order}: {bears} of {weight}, {heave}");
+    }
 }
 
 /// Clay stands at γH/s_u = 3.4 and does not at 5.5, in stages and at once (3.77 by limit analysis; the coarse cells at the toe bear up to 4.7).

@@ -24,13 +24,12 @@ mod places;
 mod population;
 mod samples;
 
-use super::surface::{boundary, part};
+use super::surface::boundary;
 use super::{Quadrature, Restored, Tally, Weights};
 use crate::interpolation::PartlyFilled;
 use crate::kinematics::Kinematics;
 use crate::material::RandomStrengths;
 use crate::mesh::Mesh;
-use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 use crate::points::Points;
 use crate::surface::{Geometry, MarkerFront};
@@ -266,17 +265,6 @@ impl<K: Kinematics<2>> Quadrature<2> for Resampled<K> {
     fn weigh(&self, grid: &Restored<2>, front: &mut Option<MarkerFront>) -> Weights<2> {
         let relaxed = grid.relaxed.then(|| Geometry::new::<K>(grid.mesh));
         self.weigh_on(relaxed.as_ref().unwrap_or(&self.geometry), grid, front)
-    }
-
-    fn part(
-        &self,
-        mesh: (&Mesh<2>, &Locator<2>),
-        points: &Points<2>,
-        active: &[bool],
-        remains: &[f64],
-        front: &mut Option<MarkerFront>,
-    ) {
-        part::<K>(mesh, (points, active), remains, front);
     }
 }
 
