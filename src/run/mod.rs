@@ -168,18 +168,15 @@ pub fn run<const D: usize, K: Kinematics<D>>(
         if simulation.state.phase_time == 0.0 {
             jump::watch(scene, &mut simulation.state);
             let resets = simulation.state.restorations;
-            let begun = simulation.begin_phase().and_then(|mut notes| {
-                if simulation.state.restorations > resets {
-                    notes.extend(record::of_reset(&simulation.state));
-                }
-                stays = ending::is_met_at_first(until, &mut simulation)?;
-                Ok(notes)
-            });
-            let notes = match begun {
-                Ok(notes) => notes,
+            let begun = simulation.begin_phase();
+            let begun = begun.and_then(|notes| Ok((notes, ending::is_met_at_first(until, &mut simulation)?)));
+            let notes;
+            (notes, stays) = match begun {
+                Ok(begun) => begun,
                 Err(error) => return Err(files.fail(scene, &mut simulation.state, error)?),
             };
-            for note in notes {
+            let of_reset = record::of_reset(&simulation.state).filter(|_| simulation.state.restorations > resets);
+            for note in notes.into_iter().chain(of_reset.collect::<Vec<_>>()) {
                 tell(&simulation.state, Some(&note));
                 files.log.line(&note)?;
             }
