@@ -6,7 +6,7 @@
 //!
 //! | layer | modules | what |
 //! |---|---|---|
-//! | 0 | [`error`], [`tensor`], [`geometry`], [`time_value`], [`gravity`], [`water_table`], [`time_integration`], [`profile`], [`program`], [`machine`], [`reading`] | errors and exit status; the order of tensor components; places, lines and polygons; values in time; gravity in a phase; the water table; generalised-α; time by activity; which program this is; what the machine has; how files are opened |
+//! | 0 | [`error`], [`expression`], [`tensor`], [`geometry`], [`time_value`], [`gravity`], [`water_table`], [`time_integration`], [`profile`], [`program`], [`machine`], [`reading`] | errors and exit status; formulas; the order of tensor components; places, lines and polygons; values in time; gravity in a phase; the water table; generalised-α; time by activity; which program this is; what the machine has; how files are opened |
 //! | 1 | [`mesh`], [`material`] | cells and shape functions, Gmsh, location of points; stress and tangent of a point |
 //! | 2 | [`points`], [`seed`], [`kinematics`], [`surface`], [`rigid`], [`contact`], [`quadrature`], [`interpolation`], [`system`], [`dofs`] | the material points and how cells are filled with them; plane strain, axisymmetry and three dimensions; where the material ends; bodies that keep their shape; how structures touch soil; what the points weigh in integrals; what a point sees of the grid; sparse systems and their solution; the map of unknowns |
 //! | 3 | [`term`], [`soil`] | the terms of the equations of motion, each with its residual and tangent; the soil as a body with continuous fields, for pictures |
@@ -49,6 +49,7 @@ pub mod contact;
 pub mod dofs;
 pub mod draw;
 pub mod error;
+pub mod expression;
 pub mod geometry;
 pub mod gravity;
 pub mod interpolation;

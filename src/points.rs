@@ -5,9 +5,10 @@ mod columns;
 pub use columns::{Column, Item, Maker, Merged, Numbers, PairVisitor, Presence, Type, Visitor, padded};
 
 use crate::kinematics::Kinematics;
+use crate::material::spectral::map_roots;
 use crate::material::{Model, RandomStrength, State, internal_count, strength_at};
 use crate::mesh::height;
-use crate::tensor::{Symmetric, Tensor, full};
+use crate::tensor::{Symmetric, Tensor, full, symmetric};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -190,6 +191,12 @@ impl<const D: usize> Points<D> {
     /// Current volume (m³) of point `p`, by the measure of `initial_volume`.
     pub fn volume(&self, p: usize) -> f64 {
         self.initial_volume[p] * self.deformation[p].determinant()
+    }
+
+    /// Hencky strain (-) of point `p` since seeding, `½ ln FFᵀ`.
+    pub fn strain(&self, p: usize) -> Symmetric {
+        let f = &self.deformation[p];
+        map_roots(&symmetric(&(f * f.transpose())), |squares| squares.map(|square| 0.5 * square.ln()))
     }
 
     /// The points with the given numbers, in that order.

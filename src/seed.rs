@@ -11,7 +11,7 @@ mod rest;
 #[cfg(test)]
 mod tests;
 
-pub use parts::QUADRATURE;
+pub use parts::{QUADRATURE, SECTIONS};
 pub use rest::{RegionWeight, k0_stress};
 
 use std::f64::consts::TAU;
@@ -29,7 +29,7 @@ use parts::{Part, exact_rule, parts, possible};
 pub struct RegionSeed {
     /// Index into [`Mesh::regions`].
     pub region: u16,
-    /// Or [`QUADRATURE`].
+    /// Or [`QUADRATURE`], or [`SECTIONS`].
     pub points_per_cell: u32,
     /// Density (t/m³) by the height.
     pub density: Profile,
@@ -82,6 +82,26 @@ pub fn seed<const D: usize>(mesh: &Mesh<D>, axisymmetric: bool, regions: &[Regio
     points.stress = vec![[0.0; 6]; count];
     points.plastic_strain = vec![0.0; count];
     Ok(points)
+}
+
+/// A point that a cell is filled with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Seed<const D: usize> {
+    /// Where it is in the cell, parametrically, and in space (m).
+    pub xi: [f64; 3],
+    pub position: [f64; D],
+    /// Volume (m³) of its part of the cell, by the measure of [`seed`].
+    pub volume: f64,
+}
+
+/// The points of cell `c`; `None` where there is no rule for their number, or the cell has no volume.
+pub fn of_cell<const D: usize>(mesh: &Mesh<D>, c: usize, count: u32, axisymmetric: bool) -> Option<Vec<Seed<D>>> {
+    let (mut points, mut x) = (Points::default(), Vec::new());
+    let parts = parts(mesh.cells.kind[c], count)?;
+    mesh.cell_coordinates(c, &mut x);
+    fill(&mut points, mesh.cells.kind[c], &x, &parts, axisymmetric).ok()?;
+    let places = parts.iter().zip(&points.position).zip(&points.initial_volume);
+    Some(places.map(|((part, &position), &volume)| Seed { xi: part.point, position, volume }).collect())
 }
 
 /// Appends positions and volumes of the points of one cell.

@@ -38,6 +38,7 @@ ANSWERS = {
     "safety": slope.safety,
     "heap": slope.heap,
     "fall": motion.fall,
+    "landing": motion.landing,
     "impact": motion.impact,
     "incline": motion.incline,
 }

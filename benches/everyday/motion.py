@@ -16,16 +16,7 @@ def fall(dice):
     room = dice.number(0.3, 1, 2) * width
     x0, x1 = room, room + width
     # What splashes up the sides is as fast as the fall or faster: it needs room above the block.
-    lid = 2 * (drop + height)
-    faces = [
-        Face("air", box(0, x0, drop, drop + height), h),
-        Face("block", box(x0, x1, drop, drop + height), h),
-        Face("air", box(x1, x1 + room, drop, drop + height), h),
-        Face("air", [(0, 0), (x1 + room, 0), (x1 + room, drop), (x1, drop), (x0, drop), (0, drop)], h),
-        Face("air", [(0, drop + height), (x0, drop + height), (x1, drop + height), (x1 + room, drop + height), (x1 + room, lid), (0, lid)], h),
-    ]
-    sides = [((x, 0), (x, lid)) for x in (0, x1 + room)]
-    section = Section(faces, {"floor": [((0, 0), (x1 + room, 0))], "sides": sides}, quadrangles=dice.chance(0.3))
+    section = _above_floor(width, height, drop, (room, room, 2 * (drop + height)), h, dice.chance(0.3))
     soil = {"model": "linear_elastic", "young": dice.scale(2000, 50000), "poisson": dice.number(0.1, 0.4, 2), "density": dice.number(1.5, 2.2, 2)}
     if dice.chance(0.4):
         soil |= {"model": "mohr_coulomb", "cohesion": dice.choice([1, 5, 20]), "friction": 30}
@@ -75,6 +66,56 @@ def fall(dice):
         return checks
 
     return Scene(section, case, answers, f"{soil['model']}, {floor}", 1 if dice.chance(0.3) else 2)
+
+
+def _above_floor(width, height, drop, room, h, quadrangles):
+    """A block above a floor between two sides; `room` is that to its left, to its right, and the height of the lid above the floor."""
+    left, right, lid = room
+    x0, x1, end = left, left + width, left + width + right
+    faces = [
+        Face("air", box(0, x0, drop, drop + height), h),
+        Face("block", box(x0, x1, drop, drop + height), h),
+        Face("air", box(x1, end, drop, drop + height), h),
+        Face("air", [(0, 0), (end, 0), (end, drop), (x1, drop), (x0, drop), (0, drop)], h),
+        Face("air", [(0, drop + height), (x0, drop + height), (x1, drop + height), (end, drop + height), (end, lid), (0, lid)], h),
+    ]
+    curves = {"floor": [((0, 0), (end, 0))], "sides": [((x, 0), (x, lid)) for x in (0, end)], "lid": [((0, lid), (end, lid))]}
+    return Section(faces, curves, quadrangles=quadrangles)
+
+
+def landing(dice):
+    """A soft block lands at 1 to 10 m/s, also beside a wall: no energy comes from nowhere, or the run says so."""
+    width, height = dice.number(0.3, 1, 2), dice.number(0.3, 1, 2)
+    h = typed(min(width, height) / dice.choice([3, 4, 5]), 2)
+    drop, speed = typed(dice.choice([1.2, 2, 3]) * h, 2), dice.number(1, 10, 2)
+    left = typed(dice.choice([0.1, 0.5, 1, 4]) * h, 2)
+    density = dice.number(1.5, 2.2, 2)
+    young = typed(density * speed**2 * dice.scale(3, 300), 2)
+    soil = {"model": "linear_elastic", "young": young, "poisson": dice.choice([0, 0.3, 0.45, 0.49]), "density": density}
+    strength = typed(young / dice.choice([20, 100, 500]), 2)
+    soil |= dice.choice([{}, {"model": "mohr_coulomb", "cohesion": strength, "friction": 30}, {"model": "tresca", "shear_strength": strength}])
+    case = {
+        "geometry": "plane_strain",
+        "regions": {"air": {"kind": "buffer"}, "block": {"kind": "mpm", "material": "soil"}},
+        "materials": {"soil": soil},
+        "supports": {"sides": {"ux": 0}, "lid": {"uy": 0}},
+        "gravity": {"y": -G},
+        "initial_velocity": {"block": {"velocity": {"y": -speed}}},
+        "phases": [{"name": "fall", "analysis": "dynamic", "duration": typed((drop + 2 * height) / speed, 2), "step": {"initial": typed(h / speed / dice.choice([2, 4, 10]), 2)}}],
+        "output": {"history": [{"name": "block", "on": "block", "quantities": ["uy", "vy"]}]},
+    }
+    floor = dice.choice(["support", "support", "wall"])
+    if floor == "support":
+        case["supports"] |= {"floor": dice.choice([{"ux": 0, "uy": 0}, {"uy": 0}])}
+    else:
+        case["contacts"] = [{"wall": "floor", "soil": "block", "friction": dice.choice([0, 0.3])}]
+    first = width * height * density * (speed**2 / 2 + G * drop)
+
+    def answers(result):
+        return [below("gain of energy over that of the fall", result.gain.max() / first, 0.01)]
+
+    section = _above_floor(width, height, drop, (left, 2 * width + 1, drop + 6 * height), h, dice.chance(0.5))
+    return Scene(section, case, answers, f"{soil['model']}, {floor}", dice.choice([1, 2, 2]))
 
 
 def impact(dice):

@@ -3,9 +3,10 @@
 //! The vertical stress is the weight above, so forces balance vertically. Horizontally they do where the horizontal stress is the same at all
 //! places of one height between two supports: under level ground with level layers.
 
-use super::checked::{Case, Content, EarthPressure, Geometry, Touching};
+use super::checked::{Case, Content, EarthPressure, Geometry, Region, Touching};
 use super::find::{filled, region_index, regions};
 use super::layout::{Bounds, bounds};
+use super::plates;
 use crate::error::Result;
 use crate::geometry::Line;
 use crate::material::Profile;
@@ -32,10 +33,13 @@ const LEVEL: f64 = 1e-3;
 pub(super) fn stress(case: &Case, mesh: &Mesh<2>, k0: &[EarthPressure], points: &Points<2>) -> Result<Vec<Symmetric>> {
     let g = -case.gravity[1];
     let (mut weights, mut of_region) = (Vec::new(), BTreeMap::new());
-    for (region, material) in filled(case).filter(|(region, _)| !region.content.is_structure()) {
+    let is_there = |region: &Region| !region.content.is_structure() && !case.comes_later(&region.name);
+    for (region, material) in filled(case).filter(|(region, _)| is_there(region)) {
         let number = case.materials.iter().position(|other| other.name == material.name);
+        let slots = plates::slots(case, mesh, &region.name);
         let (region, unit_weight) = (region_index(mesh, &region.name)?, material.density.scaled(g));
-        weights.push(RegionWeight { region, unit_weight });
+        // What stands in a plate weighs as if it were soil.
+        weights.extend(slots.into_iter().chain([region]).map(|region| RegionWeight { region, unit_weight }));
         of_region.extend(number.and_then(|k| k0.get(k)).map(|k0| (region, k0)));
     }
     let k0 = |p: usize| of_region.get(&points.region[p]).map_or(0.0, |k0| k0.at(points.position[p][1]));
@@ -148,7 +152,11 @@ struct Ground<'a> {
 
 impl<'a> Ground<'a> {
     fn new(case: &Case, mesh: &'a Mesh<2>) -> Self {
-        let soil = regions(case, mesh, |c| matches!(c, Content::Mpm { .. } | Content::Fem { .. }));
+        let mut soil = regions(case, mesh, |c| matches!(c, Content::Mpm { .. } | Content::Fem { .. }));
+        let mut buffer = regions(case, mesh, |content| matches!(content, Content::Buffer));
+        for (r, _) in mesh.regions.iter().enumerate().filter(|(_, name)| case.comes_later(name)) {
+            (soil[r], buffer[r]) = (false, true);
+        }
         let is_structure = regions(case, mesh, Content::is_structure);
         let of_structure = |r: usize| bounds(&mesh.part(|c| usize::from(mesh.cells.region[c]) == r));
         let structures = (0..is_structure.len()).filter(|&r| is_structure[r]).filter_map(of_structure).collect();
@@ -157,7 +165,8 @@ impl<'a> Ground<'a> {
             Touching::Wall(curve) => Some(curve),
             Touching::Structure(_) => None,
         });
-        let supports = case.supports.iter().filter(|support| support.fixed[0]).map(|support| &support.curve);
+        let supports =
+            case.supports.iter().filter(|support| support.fixed[0] || support.absorbing).map(|support| &support.curve);
         let first = || case.phases.first().into_iter();
         let moved = first().flat_map(|phase| &phase.prescribed).filter(|moved| moved.component == 0);
         let loaded =
@@ -168,7 +177,7 @@ impl<'a> Ground<'a> {
             mesh,
             faces: Faces::of(mesh),
             soil,
-            buffer: regions(case, mesh, |content| matches!(content, Content::Buffer)),
+            buffer,
             structures,
             held,
             round: case.geometry == Geometry::Axisymmetric,

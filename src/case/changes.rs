@@ -57,6 +57,11 @@ impl Checker {
                 self.issue(&path, At::Key, "a buffer region holds no material", "take it out, or name another region");
                 continue;
             }
+            if file.regions[name].plate.is_some() {
+                let remedy = "take it out; to change a plate, draw two and `activate` one as the other is deactivated";
+                self.issue(&path, At::Key, "a plate has stiffnesses of its own, and no material", remedy);
+                continue;
+            }
             if file.regions[name].rigid == Some(true) {
                 let problem = "a rigid structure has nothing of its material but the mass";
                 self.issue(&path, At::Key, problem, "take it out, or leave `rigid` out of the region");
@@ -127,6 +132,19 @@ pub fn ever(case: &Case, mesh: &Mesh<2>, is: impl Fn(&Material) -> bool) -> Resu
         of_region[region_index(mesh, &region.name)? as usize] |= is(material);
     }
     Ok(of_region)
+}
+
+/// The material of a region of the `mesh` as phase `number` has begun, with its number in the scene.
+///
+/// # Errors
+/// Input: a region that the mesh has not.
+pub fn at(case: &Case, mesh: &Mesh<2>, number: usize, region: &str) -> Result<step::Soil> {
+    let index = region_index(mesh, region)?;
+    let begun = case.phases[..=number].iter().flat_map(|p| &p.changes).zip(mesh.regions.len()..);
+    let last = begun.filter(|(change, _)| case.regions[change.region].name == region).last();
+    let first = || Some((case.content(region)?.material()?, usize::from(index)));
+    let (material, number) = last.map(|(change, number)| (change.material, number)).or_else(first).unwrap_or_default();
+    Ok(step::Soil { region: index, number: number as u16, material: case.materials[material].clone() })
 }
 
 /// The changes of a phase, by its number; `meshes` are those of the grid and of what is beside it.

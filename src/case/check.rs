@@ -9,7 +9,6 @@ use super::unlikely;
 use crate::interpolation::{Basis, Mpm, SCHEMES};
 use crate::material::MODELS;
 use crate::step;
-use std::collections::HashSet;
 use std::path::Path as FilePath;
 
 /// The case of `file`, whose paths are relative to `folder`, and every mistake that shows without the mesh; the case is a sound one only if there is none.
@@ -52,7 +51,7 @@ impl Checker {
     fn case(&mut self, file: &raw::CaseFile, folder: &FilePath) -> Case {
         let root = Path::default();
         let gravity = [file.gravity.x, file.gravity.y];
-        let materials: Vec<_> = file
+        let mut materials: Vec<_> = file
             .materials
             .iter()
             .filter_map(|(name, material)| {
@@ -65,12 +64,13 @@ impl Checker {
             .iter()
             .map(|(name, region)| self.region(name, region, &names, &root.key("regions").key(name)))
             .collect();
+        let k0 = self.earth_pressures(file, &materials, &root.key("initial_stress").key("k0"));
+        let (regions, plates) = self.plates(file, regions, &mut materials, &root.key("regions"));
         let contacts = self.contacts(file, &root.key("contacts"));
         let rollers = self.rollers(file, &root.key("supports"));
         let has_contact = !contacts.is_empty() || !rollers.is_empty();
         let numerics = self.numerics(file, has_contact, &root.key("numerics"));
         let mut phases = self.phases(file, &numerics, &root.key("phases"));
-        let k0 = self.earth_pressures(file, &materials, &root.key("initial_stress").key("k0"));
         let mut water = self.water(file, &root);
         let equilibrium = self.equilibrium(file, &mut phases, water.as_mut(), &root);
         let mut case = Case {
@@ -78,8 +78,10 @@ impl Checker {
             geometry: self.geometry(file.geometry, &root.key("geometry")),
             mesh: self.mesh(&file.mesh, folder, &root.key("mesh")),
             regions,
+            plates,
             materials,
             contacts,
+            bars: self.bars(file, &root.key("bars")),
             supports: self.supports(file, &root.key("supports")),
             gravity,
             k0,
@@ -146,6 +148,9 @@ impl Checker {
     }
 
     fn material_of(&mut self, region: &raw::Region, materials: &[&str], path: &Path) -> usize {
+        if region.plate.is_some() {
+            return 0;
+        }
         let Some(name) = &region.material else {
             let remedy = "add `material: …`, the name of an entry of `materials`";
             self.issue(path, At::Key, "a region that is not a buffer has no `material`", remedy);
@@ -183,7 +188,10 @@ impl Checker {
             }
             self.drained(file, curve, held, &path);
             let displacements = [held.ux, held.uy, held.un, held.rotation];
-            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) {
+            if held.absorbing {
+                self.absorbing(file, curve, held, &path.key("absorbing"));
+            }
+            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) && !held.absorbing {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0`, `uy: 0` or `un: 0`");
             }
             checked.push(Support {
@@ -192,9 +200,40 @@ impl Checker {
                 rotation: held.rotation.is_some(),
                 across: held.un.is_some(),
                 drained: held.pore_pressure.is_some(),
+                absorbing: held.absorbing,
             });
         }
         checked
+    }
+
+    /// Refuses dashpots that have nothing to do, or nothing to act on.
+    fn absorbing(&mut self, file: &raw::CaseFile, curve: &str, held: &raw::Components, path: &Path) {
+        let dynamic = |phase: &raw::Phase| phase.analysis == raw::Analysis::Dynamic;
+        if !file.phases.iter().any(dynamic) {
+            let remedy = "take it out, or make a phase `analysis: dynamic`";
+            self.issue(path, At::Key, "no phase has waves", remedy);
+        }
+        if file.phases.iter().any(|phase| phase.analysis == raw::Analysis::Auto) {
+            let remedy = "choose quasi_static or dynamic for each phase";
+            self.issue(path, At::Key, "an `auto` phase cannot tell when the curve is to be held", remedy);
+        }
+        if held.un.is_some() || held.rotation.is_some() || held.ux.is_some() && held.uy.is_some() {
+            let remedy = "leave at least one of `ux` and `uy` out, and `un` and `rotation`";
+            self.issue(path, At::Key, "a curve that is held does not absorb", remedy);
+        }
+        if file.regions.contains_key(curve) {
+            self.issue(path, At::Key, "waves leave through a physical curve", "name the curve in place of the region");
+        }
+        if let Some(i) = file.phases.iter().position(|phase| phase.prescribe.contains_key(curve)) {
+            let problem = format!("phase `{}` prescribes the displacement of `{curve}`", file.phases[i].name);
+            let remedy =
+                "take one of the two out; an incoming wave of the velocity v is a traction of 2ρcv on the curve";
+            self.issue(path, At::Key, problem, remedy);
+        }
+        if file.numerics.gradient == "bspline" {
+            let remedy = "choose `gradient: mpm`";
+            self.issue(path, At::Key, "dashpots act on nodes, and splines have none", remedy);
+        }
     }
 
     /// The index of the region that the key at `path` names.
@@ -270,30 +309,8 @@ impl Checker {
                 self.issue(&path, At::Value, "the field is named twice", "take it out");
             }
         }
-        let mut names = HashSet::new();
-        for (i, entry) in output.history.iter().enumerate() {
-            let path = path.key("history").index(i);
-            if !names.insert(&entry.name) {
-                let problem = format!("two entries are called `{}`", entry.name);
-                self.issue(&path.key("name"), At::Value, problem, "give each entry a name of its own");
-            }
-            if entry.name.contains([',', '"', '\n']) {
-                let problem = "the name has a comma, a quote or a line break in it";
-                self.issue(&path.key("name"), At::Value, problem, "it heads a CSV column: choose a plain name");
-            }
-        }
-        let history = output.history.iter().map(|entry| History {
-            name: entry.name.clone(),
-            on: entry.on.clone(),
-            quantities: entry.quantities.iter().map(|&quantity| quantity.into()).collect(),
-        });
-        Output {
-            every: output.every,
-            fields,
-            encoding: output.encoding,
-            surface: output.surface,
-            history: history.collect(),
-        }
+        let history = self.histories(&output.history, &path.key("history"));
+        Output { every: output.every, fields, encoding: output.encoding, surface: output.surface, history }
     }
 
     /// What only shows between blocks.
@@ -355,39 +372,14 @@ impl Checker {
         }
         for material in case.materials.iter().filter(|material| material.density.top == 0.0) {
             let begun = file.regions.values().filter_map(|region| region.material.as_ref());
-            if begun.chain(file.phases.iter().flat_map(|p| p.materials.values())).any(|name| *name == material.name) {
+            if begun
+                .chain(file.phases.iter().flat_map(|p| p.assigned().map(|(_, m)| m)))
+                .any(|name| *name == material.name)
+            {
                 let path = root.key("materials").key(&material.name);
                 let remedy = "give it a `density` above 0, or make the phases quasi_static";
                 self.issue(&path, At::Key, "a dynamic phase needs material with mass", remedy);
             }
-        }
-    }
-
-    /// Gravity must act on something, and an initial stress be that of soil with weight. Soil without weight under a
-    /// heavy structure is an idealisation.
-    fn weight(&mut self, case: &Case, file: &raw::CaseFile) {
-        // Water has a weight of its own.
-        if case.gravity == [0.0; 2] || case.water.is_some() {
-            return;
-        }
-        let begun = file.regions.iter().filter_map(|(name, region)| Some((name, region.material.as_ref()?)));
-        let used: Vec<_> = begun.chain(file.phases.iter().flat_map(|phase| &phase.materials)).collect();
-        let of = |wanted: fn(raw::RegionKind) -> bool| -> HashSet<&str> {
-            let filled = used.iter().filter(|(name, _)| file.regions.get(*name).is_some_and(|r| wanted(r.kind)));
-            filled.map(|(_, material)| material.as_str()).collect()
-        };
-        let soils = of(|kind| matches!(kind, raw::RegionKind::Mpm | raw::RegionKind::Fem));
-        let all = of(|_| true);
-        let nothing_weighs = !case.materials.iter().any(|m| m.has_mass() && all.contains(m.name.as_str()));
-        let (wanted, problem) = match (nothing_weighs, case.k0.is_some()) {
-            (true, _) => (all, "nothing has weight, so gravity does nothing"),
-            (false, true) => (soils, "soil without weight has no stress at rest for k0"),
-            (false, false) => return,
-        };
-        for material in case.materials.iter().filter(|m| !m.has_mass() && wanted.contains(m.name.as_str())) {
-            let path = Path::default().key("materials").key(&material.name).key("density");
-            let remedy = "give it a `density` above 0, or take `gravity` and `initial_stress` out";
-            self.issue(&path, At::Value, problem, remedy);
         }
     }
 }

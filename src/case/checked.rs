@@ -4,11 +4,13 @@
 //! to the mesh once [`super::names::check`] found no fault.
 
 mod phases;
+mod plate;
 
 pub use super::raw::{Analysis, Axis, Encoding, Field, StandingWave};
-pub use crate::run::{Quantity, Until};
+pub use crate::run::{Place, Quantity, Until};
 pub use crate::step::{Material, Restore, StepSize};
 pub use phases::*;
+pub use plate::*;
 
 use crate::contact::Law;
 use crate::interpolation::Basis;
@@ -27,9 +29,11 @@ pub struct Case {
     pub mesh: Mesh,
     /// The regions, sorted by name.
     pub regions: Vec<Region>,
-    /// The materials, sorted by name.
+    pub plates: Vec<Plate>,
+    /// The materials, sorted by name, and behind them those of the plates.
     pub materials: Vec<Material>,
     pub contacts: Vec<Contact>,
+    pub bars: Vec<Bar>,
     pub supports: Vec<Support>,
     /// Acceleration of gravity (m/s²).
     pub gravity: [f64; 2],
@@ -213,6 +217,8 @@ pub struct Support {
     pub across: bool,
     /// Whether water leaves there.
     pub drained: bool,
+    /// Whether waves leave there.
+    pub absorbing: bool,
 }
 
 /// The velocity of a region before the first phase.
@@ -302,10 +308,28 @@ pub struct Output {
 }
 
 /// Columns of `history.csv`.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct History {
     pub name: String,
-    /// A physical curve, a physical point or a region.
-    pub on: String,
+    pub on: On,
     pub quantities: Vec<Quantity>,
+}
+
+/// What a history is of.
+#[derive(Clone, Debug, PartialEq)]
+pub enum On {
+    /// A physical curve, a physical point or a region, by its name.
+    Named(String),
+    /// Soil at a place.
+    Place(Place),
+}
+
+impl History {
+    /// The name of what it is of.
+    pub fn named(&self) -> Option<&str> {
+        match &self.on {
+            On::Named(name) => Some(name),
+            On::Place(_) => None,
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! The terms of loads on curves, dead tractions and pressures that follow their curve, and of forces at points.
 
-use super::checked::{Case, Restore, Traction as Load};
+use super::checked::{Case, LoadField, Restore, Traction as Load};
 use super::find::{group, regions};
 use super::parts;
 use super::rigid::body_of;
@@ -9,7 +9,10 @@ use crate::kinematics::Kinematics;
 use crate::mesh::quality::SAME;
 use crate::mesh::{Group, Mesh};
 use crate::rigid::Body;
-use crate::term::{FacetPressure, Hydrostatic, RigidPressure, RigidTraction, Term, Traction};
+use crate::term::{
+    Course, FacetPressure, FormulaTraction, Formulas, Hydrostatic, RigidFormulaTraction, RigidPressure, RigidTraction,
+    Sample, Term, Traction, samples,
+};
 use crate::time_value::TimeValue;
 use std::collections::{BTreeSet, HashMap, HashSet};
 
@@ -49,6 +52,9 @@ pub fn terms<K: Kinematics<2>>(
         for (shares, value) in dead::<K>(load, mesh, curve) {
             on_grid.push(Box::new(Traction::<K, 2>::of_shares(shares, phase, value)));
         }
+        if let Some((samples, formulas)) = by_formula::<K>(load, mesh, curve, place)? {
+            on_grid.push(Box::new(FormulaTraction::new(samples, phase, formulas)));
+        }
         let Some(pressure) = &load.pressure else { continue };
         let heads = heads(case, phase, pressure.head(0.0));
         let [of_grid, of_elements] = loaded(case, (mesh, fem), curve, place)?;
@@ -73,6 +79,10 @@ pub fn on_rigid<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, (body, number): (
         for (shares, value) in dead::<K>(load, mesh, curve) {
             terms.push(Box::new(RigidTraction::new(body, &mesh.nodes, &shares, phase, value)));
         }
+        let place = || format!("the load on `{}` in phase `{}`", load.curve, case.phases[phase].name);
+        if let Some((samples, formulas)) = by_formula::<K>(load, mesh, curve, place)? {
+            terms.push(Box::new(RigidFormulaTraction::new(body, &samples, phase, formulas)));
+        }
         if let Some(pressure) = &load.pressure {
             let facets: Vec<Side> = sides(mesh, curve, |region| region == body.region)
                 .into_iter()
@@ -93,12 +103,43 @@ fn dead<K: Kinematics<2>>(load: &Load, mesh: &Mesh<2>, curve: &Group) -> Vec<Dea
     let none = || TimeValue::Constant(0.0);
     let [x, y] = &load.components;
     let mut parts = vec![
-        (None, [x.top.clone(), y.top.clone()]),
-        (Some(x.datum), [x.gradient.clone(), none()]),
-        (Some(y.datum), [none(), y.gradient.clone()]),
+        (Course::Uniform, [x.top.clone(), y.top.clone()]),
+        (Course::Depth(x.datum), [x.gradient.clone(), none()]),
+        (Course::Depth(y.datum), [none(), y.gradient.clone()]),
     ];
+    for (d, field) in load.fields.iter().enumerate() {
+        let Some(LoadField::Along { axis, values, factor }) = field else { continue };
+        let mut value = [none(), none()];
+        value[d] = factor.clone();
+        parts.push((Course::Table(*axis, values.clone()), value));
+    }
     parts.retain(|(_, value)| value.iter().any(|value| !value.is_zero()));
-    parts.into_iter().map(|(datum, value)| (Traction::<K, 2>::shares(mesh, curve, datum), value)).collect()
+    parts.into_iter().map(|(course, value)| (Traction::<K, 2>::shares(mesh, curve, &course), value)).collect()
+}
+
+/// The formulas of a load on a curve, with the places where they are taken.
+///
+/// # Errors
+/// Input: one that has no value as the phase begins.
+fn by_formula<K: Kinematics<2>>(
+    load: &Load,
+    mesh: &Mesh<2>,
+    curve: &Group,
+    place: impl Fn() -> String,
+) -> Result<Option<(Vec<Sample<2>>, Formulas)>> {
+    let formula = |field: &Option<LoadField>| match field {
+        Some(LoadField::Formula(formula)) => Some(formula.clone()),
+        _ => None,
+    };
+    let formulas = Formulas(load.fields.each_ref().map(formula));
+    if formulas.0.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let samples = samples::<K, 2>(mesh, curve, &Course::Free);
+    for sample in &samples {
+        formulas.at(&sample.place, 0.0).map_err(|e| Error::input(place(), e.problem, e.remedy))?;
+    }
+    Ok(Some((samples, formulas)))
 }
 
 /// The nodes of the grid at whose soil forces act, where the grid is reset.
@@ -138,11 +179,12 @@ fn heads(case: &Case, phase: usize, pressure: Hydrostatic) -> Vec<Option<Hydrost
 
 /// The integrals of what follows the curve, or varies along it, are those of cells of first and second order.
 fn check_order(load: &Load, curve: &Group, place: impl Fn() -> String) -> Result<()> {
-    let varies = load.pressure.is_some() || load.components.iter().any(|component| !component.gradient.is_zero());
+    let has_gradient = load.components.iter().any(|component| !component.gradient.is_zero());
+    let varies = load.pressure.is_some() || has_gradient || load.fields.iter().any(Option::is_some);
     if varies && curve.facets.iter().any(|(kind, _)| kind.order() > 2) {
         return Err(Error::input(
             place(),
-            "on cells of third order a load on a curve is a traction that does not vary with depth",
+            "on cells of third order a load on a curve is a traction that does not vary from place to place",
             "set `order: 2` under `mesh`",
         ));
     }

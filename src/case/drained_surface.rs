@@ -20,7 +20,7 @@ impl Checker {
         let first =
             file.regions.iter().filter(|(region, _)| named(region)).filter_map(|(_, region)| region.material.as_ref());
         let later =
-            file.phases.iter().flat_map(|phase| &phase.materials).filter(|(region, _)| named(region)).map(|(_, m)| m);
+            file.phases.iter().flat_map(raw::Phase::assigned).filter(|(region, _)| named(region)).map(|(_, m)| m);
         let conducts = |material: &raw::Material| material.permeability.is_some();
         if !first.chain(later).any(|material| file.materials.get(material).is_some_and(conducts)) {
             let remedy = "take it out, or give the material of the soil a `permeability`";

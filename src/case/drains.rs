@@ -60,13 +60,15 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Result<Vec<String>> {
     let curves = case.supports.iter().filter(|support| support.drained).filter_map(|s| mesh.group(&s.curve));
     curves.flat_map(|curve| &curve.nodes).filter_map(|&n| bodies.of_node(n as usize)).for_each(|b| drained[b] = true);
     if let Some(surface) = case.drained_surface {
-        let drains = |r: usize| match surface {
+        let opens = |r: usize| match surface {
             Surface::All => true,
             Surface::Of(index) => case.regions[index].name == *name(r),
         };
+        // Where the surface itself drains, soil on it that does changes nothing.
+        pairs.retain(|&(beside, other)| !(drains[beside] && opens(other)));
         for face in Faces::of(mesh).inner {
             for [own, other] in [face.cells, [face.cells[1], face.cells[0]]] {
-                let free = buffer[region(other as usize)] && is_porous(own as usize) && drains(region(own as usize));
+                let free = buffer[region(other as usize)] && is_porous(own as usize) && opens(region(own as usize));
                 if let Some(body) = bodies.of_cell(own).filter(|_| free) {
                     drained[body] = true;
                 }

@@ -39,6 +39,7 @@ impl Checker {
             reduction: None,
             absent: first.absent.clone(),
             removed: Vec::new(),
+            placed: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
             reset_displacements: false,

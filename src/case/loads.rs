@@ -1,10 +1,11 @@
 //! The loads of a phase: those on curves, and those that follow the surface of the material points.
 
 use super::check::Checker;
-use super::checked::{LoadProfile, Numerics, Restore, Surface, SurfaceLoad, Traction};
+use super::checked::{LoadField, LoadProfile, Numerics, Restore, Surface, SurfaceLoad, Traction};
 use super::locate::{At, Path};
 use super::raw;
 use super::structure::suggest;
+use crate::expression::Expression;
 use crate::time_value::TimeValue;
 
 /// What names the surface of all material points.
@@ -75,13 +76,17 @@ impl Checker {
             self.issue(path, At::Value, "there is no load", remedy);
         }
         let factor = self.factor(traction, path);
-        let components = [("tx", &traction.tx), ("ty", &traction.ty)].map(|(key, load)| match load {
-            Some(load) => self.load_profile(load, &factor, false, &path.key(key)),
-            None => LoadProfile::uniform(TimeValue::Constant(0.0)),
+        let loads = [("tx", &traction.tx), ("ty", &traction.ty)];
+        let fields = loads.map(|(key, load)| self.field(load.as_ref()?, &factor, &path.key(key)));
+        let components = loads.map(|(key, load)| match load {
+            Some(load @ (raw::Load::InTime(_) | raw::Load::Profile(_))) => {
+                self.load_profile(load, &factor, false, &path.key(key))
+            }
+            _ => LoadProfile::uniform(TimeValue::Constant(0.0)),
         });
         let pressure = traction.pressure.as_ref();
         let pressure = pressure.map(|load| self.load_profile(load, &factor, true, &path.key("pressure")));
-        Traction { entry: 0, curve: curve.to_owned(), force: None, components, pressure }
+        Traction { entry: 0, curve: curve.to_owned(), force: None, components, fields, pressure }
     }
 
     /// A force at a point.
@@ -101,7 +106,14 @@ impl Checker {
         let force = [("fx", &traction.fx), ("fy", &traction.fy)];
         let force = force.map(|(key, value)| self.or_zero(value.as_ref(), &path.key(key)));
         let none = || LoadProfile::uniform(TimeValue::Constant(0.0));
-        Traction { entry: 0, curve: point.to_owned(), force: Some(force), components: [none(), none()], pressure: None }
+        Traction {
+            entry: 0,
+            curve: point.to_owned(),
+            force: Some(force),
+            components: [none(), none()],
+            fields: [None, None],
+            pressure: None,
+        }
     }
 
     /// The components of a load on the surface, which do not vary with depth.
@@ -109,9 +121,9 @@ impl Checker {
         [("tx", &traction.tx), ("ty", &traction.ty)].map(|(key, load)| match load {
             None => TimeValue::Constant(0.0),
             Some(raw::Load::InTime(value)) => self.in_time(value, &path.key(key)),
-            Some(raw::Load::Profile(_)) => {
+            Some(_) => {
                 let remedy = "give a value in time, or vary the `pressure` with depth";
-                let problem = "on a surface a traction in a fixed direction does not vary with depth";
+                let problem = "on a surface a traction in a fixed direction does not vary from place to place";
                 self.issue(&path.key(key), At::Value, problem, remedy);
                 TimeValue::Constant(0.0)
             }
@@ -174,13 +186,41 @@ impl Checker {
         }
     }
 
-    /// The factor on the profiles of a load.
+    /// A component of a load on a curve that is a formula or a table along the curve.
+    fn field(&mut self, load: &raw::Load, factor: &TimeValue, path: &Path) -> Option<LoadField> {
+        match load {
+            raw::Load::InTime(_) | raw::Load::Profile(_) => None,
+            raw::Load::Formula(text) => match Expression::parse(text) {
+                Ok(formula) => Some(LoadField::Formula(formula)),
+                Err(problem) => {
+                    let remedy = "write a formula such as `-10*(1 + 0.1*x)*sin(2*pi*t)`";
+                    self.issue(path, At::Value, format!("the formula has a mistake: {problem}"), remedy);
+                    None
+                }
+            },
+            raw::Load::Along(raw::Along { along, values }) => {
+                if let Some(i) = values.windows(2).position(|pair| pair[1][0] <= pair[0][0]) {
+                    let problem = format!("the coordinate {} does not come after {}", values[i + 1][0], values[i][0]);
+                    let path = path.key("values").index(i + 1);
+                    self.issue(&path, At::Value, problem, "sort the table by the coordinate, each once");
+                }
+                Some(LoadField::Along { axis: *along as usize, values: values.clone(), factor: factor.clone() })
+            }
+        }
+    }
+
+    /// The factor on the profiles and tables of a load.
     fn factor(&mut self, traction: &raw::Traction, path: &Path) -> TimeValue {
         let Some(factor) = &traction.factor else { return TimeValue::Constant(1.0) };
         let mut loads = [&traction.pressure, &traction.tx, &traction.ty].into_iter().flatten();
-        if !loads.any(|load| matches!(load, raw::Load::Profile(_))) {
-            let remedy = "let the load itself vary in time, or give it as {top, gradient, datum}";
-            self.issue(&path.key("factor"), At::Key, "a factor is for a load that varies with depth", remedy);
+        if !loads.any(|load| matches!(load, raw::Load::Profile(_) | raw::Load::Along(_))) {
+            let remedy = "let the load itself vary in time, or give it as {top, gradient, datum} or {along, values}";
+            self.issue(
+                &path.key("factor"),
+                At::Key,
+                "a factor is for a load that varies with depth or along a curve",
+                remedy,
+            );
         }
         self.in_time(factor, &path.key("factor"))
     }
@@ -190,6 +230,11 @@ impl Checker {
         let profile = match load {
             raw::Load::InTime(value) => return LoadProfile::uniform(self.in_time(value, path)),
             raw::Load::Profile(profile) => profile,
+            raw::Load::Formula(_) | raw::Load::Along(_) => {
+                let remedy = "give a value in time or {top, gradient, datum}, or `tx` and `ty` on a curve";
+                self.issue(path, At::Value, "a pressure varies in time or with depth alone", remedy);
+                return LoadProfile::uniform(TimeValue::Constant(0.0));
+            }
         };
         if grows {
             self.profile_grows(profile, path);

@@ -4,7 +4,9 @@
 //! against the schema of [`raw`], `check` resolves that into [`checked`] types, [`names`] holds the result
 //! against the groups of the mesh.
 
+mod absorbing;
 pub mod at_rest;
+mod bars;
 mod changes;
 mod check;
 pub mod checked;
@@ -17,6 +19,7 @@ mod drains;
 mod earth_pressure;
 mod equilibrium;
 mod find;
+mod histories;
 mod incompressible;
 pub mod issue;
 pub mod layout;
@@ -29,6 +32,8 @@ mod outputs;
 mod over_depth;
 pub mod parts;
 mod phases;
+mod placed;
+pub mod plates;
 mod pores;
 pub mod raw;
 mod removed;
@@ -50,6 +55,7 @@ mod unlikely;
 pub mod unmeant;
 mod wall;
 mod water;
+mod weight;
 mod yaml;
 
 pub use checked::Case;
@@ -208,8 +214,9 @@ impl Loaded {
     pub fn shaping(&self, product: Product) -> Map<String, Value> {
         let mut keys: Vec<&str> =
             raw::SHAPES.into_iter().filter(|(_, shapes)| shapes.contains(&product)).map(|(key, _)| key).collect();
-        if product == Product::Points && self.case.water.is_some() {
-            // The soil begins under the water of the first phase.
+        let comes = self.case.phases.iter().any(|phase| !phase.placed.is_empty());
+        if product == Product::Points && (self.case.water.is_some() || comes) {
+            // The soil begins under the water of the first phase, and without the weight of what comes later.
             keys.push("phases");
         }
         let tree = self.source.tree();

@@ -1,6 +1,6 @@
 //! The names in a case against the physical groups of its mesh.
 
-use super::checked::{Case, Content, Quantity, Touched, Touching, Traction};
+use super::checked::{BarEnd, Case, Content, Quantity, Touched, Touching, Traction};
 use super::issue::Issue;
 use super::locate::{At, Path};
 use super::structure::{nearest, suggest};
@@ -38,6 +38,7 @@ impl Of {
 /// Every name in `case` that the mesh does not have, and every surface that the case does not fill.
 pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
     let root = Path::default();
+    let groups = &with_plates(case, groups);
     let mut names = Names { groups, issues: Vec::new() };
     for region in &case.regions {
         names.surface(&region.name, &root.key("regions").key(&region.name));
@@ -67,6 +68,13 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
             names.curve(curve, &root.key("contacts").index(i).key("wall"), At::Value);
         }
     }
+    for bar in &case.bars {
+        let path = root.key("bars").key(&bar.name);
+        names.one_of(&bar.from, &groups.points, "physical point", &path.key("from"), At::Value);
+        if let BarEnd::Point(point) = &bar.to {
+            names.one_of(point, &groups.points, "physical point", &path.key("to"), At::Value);
+        }
+    }
     for (i, phase) in case.own_phases() {
         let path = root.key("phases").index(i);
         let mut curves: Vec<&str> = phase.prescribed.iter().map(|p| p.curve.as_str()).collect();
@@ -79,36 +87,22 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         }
     }
     for (i, entry) in case.output.history.iter().enumerate() {
-        let path = root.key("output").key("history").index(i).key("on");
-        let known = groups.curves.iter().chain(&groups.points).chain(&groups.surfaces);
-        names.one_of(&entry.on, known, "physical curve, physical point or region", &path, At::Value);
-        let has_nodes = groups.curves.contains(&entry.on) || groups.points.contains(&entry.on);
-        let rigid = is_wall(case, &entry.on) || !has_nodes && is_rigid(case, &entry.on);
-        let known = has_nodes || groups.surfaces.contains(&entry.on);
-        let path = root.key("output").key("history").index(i).key("quantities");
-        let mut refuse = |refused: fn(&Quantity) -> bool, problem: &str, remedy: &str| {
-            for (i, _) in entry.quantities.iter().enumerate().filter(|(_, quantity)| refused(quantity)) {
-                names.issues.push(Issue::new(&path.index(i), At::Value, problem, remedy));
-            }
-        };
-        if known && !rigid {
-            let remedy = "take it out, or name a wall, or a region of kind structure with `rigid: true`";
-            let of_rigid = |q: &Quantity| matches!(q, Quantity::Rotation | Quantity::ReactionMoment);
-            refuse(of_rigid, "only a rigid structure turns", remedy);
-        }
-        if groups.surfaces.contains(&entry.on) && !has_nodes && !rigid {
-            let remedy = "take it out, or name the curve that is held";
-            refuse(|q| matches!(q, Quantity::Reaction(_)), "a region has no reaction", remedy);
-        }
-        let touches =
-            rigid || !has_nodes && case.regions.iter().enumerate().any(|(i, r)| r.name == entry.on && touches(case, i));
-        if known && !touches {
-            let remedy = "take it out, or name a structure, a wall, or a region that a contact names under `against`";
-            let of_contact = |q: &Quantity| matches!(q, Quantity::Contact(_) | Quantity::ContactMoment);
-            refuse(of_contact, "only a structure has contact", remedy);
+        if let Some(on) = entry.named() {
+            names.history(case, on, &entry.quantities, &root.key("output").key("history").index(i));
         }
     }
     names.issues
+}
+
+/// The names of the groups of a mesh, with those of the plates.
+fn with_plates(case: &Case, groups: &Groups) -> Groups {
+    let mut groups = groups.clone();
+    for (name, plate) in case.named_plates() {
+        groups.surfaces.push(name.to_owned());
+        groups.curves.extend(plate.curves(name));
+        groups.points.extend(plate.points.iter().map(|(point, _)| point.clone()));
+    }
+    groups
 }
 
 fn is_wall(case: &Case, name: &str) -> bool {
@@ -169,8 +163,64 @@ impl Names<'_> {
 
     /// What is held or moved: a curve, or a rigid structure as a whole.
     fn held(&mut self, case: &Case, name: &str, path: &Path) {
-        if !is_rigid(case, name) {
+        let is_point = case.plates.iter().flat_map(|plate| &plate.points).any(|(point, _)| point == name);
+        if !is_rigid(case, name) && !is_point {
             self.curve(name, path, At::Key);
+        }
+    }
+
+    /// What the history has of a curve, a point, a region or a rigid structure.
+    fn history(&mut self, case: &Case, on: &str, quantities: &[Quantity], path: &Path) {
+        let groups = self.groups;
+        let has = |names: &[String]| names.iter().any(|name| name == on);
+        let bars: Vec<String> = case.bars.iter().map(|bar| bar.name.clone()).collect();
+        let known = groups.curves.iter().chain(&groups.points).chain(&groups.surfaces).chain(&bars);
+        let kinds = match bars.is_empty() {
+            true => "physical curve, physical point or region",
+            false => "physical curve, physical point, region or bar",
+        };
+        self.one_of(on, known, kinds, &path.key("on"), At::Value);
+        let (has_nodes, is_surface) = (has(&groups.curves) || has(&groups.points), has(&groups.surfaces));
+        let is_bar = has(&bars) && !has_nodes;
+        if !has_nodes && !is_surface && !is_bar {
+            return;
+        }
+        let rigid = is_wall(case, on) || !has_nodes && is_rigid(case, on);
+        let touches =
+            rigid || !has_nodes && case.regions.iter().enumerate().any(|(i, r)| r.name == on && touches(case, i));
+        let structures = case.contacts.iter().any(|contact| matches!(contact.structure, Touching::Structure(_)));
+        for (i, quantity) in quantities.iter().enumerate() {
+            let (problem, remedy) = match quantity {
+                quantity if is_bar && *quantity != Quantity::BarForce => {
+                    ("of a bar there is the force alone", "write `quantities: [force]`, or name something else")
+                }
+                Quantity::BarForce if !is_bar => ("only a bar has a force", "take it out, or name an entry of `bars`"),
+                Quantity::Section(_) if case.plate(on).is_none() => {
+                    ("only a plate has forces in sections", "take it out, or name a region with a `plate`")
+                }
+                // Whether a curve is one of a structure is known with the mesh.
+                Quantity::Contact(_) if structures && has(&groups.curves) => continue,
+                Quantity::ContactMoment if structures && has(&groups.curves) && !touches => {
+                    ("a curve has contact forces, but no moment", "take it out, or name the structure")
+                }
+                Quantity::Rotation | Quantity::ReactionMoment if !rigid => (
+                    "only a rigid structure turns",
+                    "take it out, or name a wall, or a region of kind structure with `rigid: true`",
+                ),
+                Quantity::Reaction(_) if !has_nodes && !rigid => {
+                    ("a region has no reaction", "take it out, or name the curve that is held")
+                }
+                Quantity::Contact(_) | Quantity::ContactMoment if !touches => (
+                    "only a structure has contact",
+                    "take it out, or name a structure, a wall, or a region that a contact names under `against`",
+                ),
+                quantity if quantity.is_of_points() && (has_nodes || rigid) => (
+                    "only soil and regions that deform have it",
+                    "take it out, or name a region, or give `at`, `box` or `line` in place of `on`",
+                ),
+                _ => continue,
+            };
+            self.issues.push(Issue::new(&path.key("quantities").index(i), At::Value, problem, remedy));
         }
     }
 

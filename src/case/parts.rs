@@ -31,10 +31,14 @@ pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
         materials,
         elements: regions(case, mesh, Content::is_fem),
         soil: mesh.regions.iter().map(is_soil).collect(),
+        plates: case
+            .named_plates()
+            .filter_map(|(name, _)| Some((number(&name.to_owned())?, name.to_owned())))
+            .collect(),
         axisymmetric: case.geometry == Geometry::Axisymmetric,
         resets: case.phases.iter().filter(|phase| phase.reset_displacements).map(|phase| phase.name.clone()).collect(),
         absent: case.phases.iter().map(absent).collect(),
-        removes: case.phases.iter().any(|phase| !phase.removed.is_empty()),
+        changes: case.phases.iter().any(|phase| !phase.removed.is_empty() || !phase.placed.is_empty()),
     }
 }
 

@@ -25,10 +25,13 @@ impl Checker {
                 self.issue(&path.key("name"), At::Value, problem, "give each phase a name of its own");
             }
             let absent = self.absent(phase, checked.last(), file, &path);
-            let changes = self.changes(phase, i == 0, file, &mut materials, &path);
+            let mut changes = self.changes(phase, i == 0, file, &mut materials, &path);
             let contacts = self.contact_changes(phase, file, &mut laws, &path);
-            let removed = self.removed(phase, &checked, (file, numerics), &path);
-            checked.push(Phase { absent, removed, changes, contacts, ..self.phase(phase, file, numerics, &path) });
+            let removed = self.removed(i, (file, numerics), &path);
+            let (placed, taken) = self.placed(i, (file, numerics), &mut materials, &path);
+            changes.extend(taken);
+            let rest = self.phase(phase, file, numerics, &path);
+            checked.push(Phase { absent, removed, placed, changes, contacts, ..rest });
         }
         checked
     }
@@ -80,6 +83,7 @@ impl Checker {
             reduction: self.reduction(phase, file, path),
             absent: Vec::new(),
             removed: Vec::new(),
+            placed: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
             reset_displacements: phase.reset_displacements,
@@ -168,7 +172,7 @@ impl Checker {
         let structures =
             file.regions.iter().filter(|(_, r)| r.kind == raw::RegionKind::Structure).map(|(name, _)| name);
         let of_contacts = file.contacts.iter().flat_map(|c| c.wall.iter().chain(&c.name));
-        let known: Vec<&str> = structures.chain(of_contacts).map(String::as_str).collect();
+        let known: Vec<&str> = structures.chain(of_contacts).chain(file.bars.keys()).map(String::as_str).collect();
         let mut absent = before.map_or_else(Vec::new, |before| before.absent.clone());
         for (i, name) in phase.deactivate.iter().enumerate() {
             let path = path.key("deactivate").index(i);
@@ -176,7 +180,7 @@ impl Checker {
                 let remedy = format!("dig it out with `remove: [{name}]`");
                 self.issue(&path, At::Value, format!("`{name}` is soil of material points"), remedy);
             } else if !known.contains(&name.as_str()) {
-                let problem = format!("there is no structure, wall or contact `{name}`");
+                let problem = format!("there is no structure, wall, contact or bar `{name}`");
                 self.issue(&path, At::Value, problem, suggest(name, known.iter().copied()));
             } else if absent.contains(name) {
                 self.issue(&path, At::Value, format!("`{name}` is not there already"), "take it out");

@@ -2,7 +2,7 @@
 
 use super::changes;
 use super::check::Checker;
-use super::checked::{Analysis, Case, Phase};
+use super::checked::{Analysis, Case, Material, Phase};
 use super::find;
 use super::incompressible::{bulk, has_water_of_its_own};
 use super::locate::{At, Path};
@@ -164,11 +164,21 @@ impl Checker {
             self.issue(&path, At::Value, format!("{} {lack}", basis.name()), remedy);
         }
         let wanted = |q: &raw::Quantity| *q == raw::Quantity::PorePressure;
-        for (i, entry) in file.output.history.iter().enumerate() {
-            if entry.quantities.iter().any(wanted) && case.materials.iter().all(|m| m.porous.is_none()) {
+        for (i, entry) in file.output.history.iter().enumerate().filter(|(_, e)| e.quantities.iter().any(wanted)) {
+            // Nodes have that of the field of the water alone.
+            let of_nodes = entry.on.as_ref().is_some_and(|on| !file.regions.contains_key(on));
+            let (has, problem, remedy): (fn(&Material) -> bool, _, _) = if of_nodes {
+                (
+                    |m| m.porous.is_some(),
+                    "no material has pore water of its own",
+                    "give an undrained material a `permeability`",
+                )
+            } else {
+                (Material::has_pore_pressure, "no material is undrained", "set `drainage: undrained`")
+            };
+            if !case.materials.iter().any(has) {
                 let path = Path::default().key("output").key("history").index(i).key("quantities");
-                let remedy = "take `pore_pressure` out, or give an undrained material a `permeability`";
-                self.issue(&path, At::Value, "no material has pore water of its own", remedy);
+                self.issue(&path, At::Value, problem, format!("take `pore_pressure` out, or {remedy}"));
             }
         }
     }

@@ -9,12 +9,14 @@ mod materials;
 mod numerics;
 mod output;
 mod phases;
+mod plate;
 
 pub use ground::*;
 pub use materials::*;
 pub use numerics::*;
 pub use output::*;
 pub use phases::*;
+pub use plate::*;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -40,6 +42,9 @@ pub struct CaseFile {
     /// Contacts between structures and soil.
     #[serde(default)]
     pub contacts: Vec<Contact>,
+    /// Anchors, struts and springs, by name: bars between two points of structures, or such a point and a place that does not move.
+    #[serde(default)]
+    pub bars: BTreeMap<String, Bar>,
     /// Displacements held at zero in every phase, by the name of a physical curve or a rigid structure.
     #[serde(default)]
     pub supports: BTreeMap<String, Components>,
@@ -92,13 +97,14 @@ pub enum Product {
 }
 
 /// What each entry of [`CaseFile`] shapes itself, beside what is made from that. What it shapes is stale when it changes.
-pub const SHAPES: [(&str, &[Product]); 17] = [
+pub const SHAPES: [(&str, &[Product]); 18] = [
     ("title", &[]),
     ("geometry", &[Product::Points, Product::Results]),
     ("mesh", &[Product::Mesh]),
     ("regions", &[Product::Points, Product::Results]),
     ("materials", &[Product::Points, Product::Results]),
     ("contacts", &[Product::Results]),
+    ("bars", &[Product::Results]),
     ("supports", &[Product::Results]),
     ("gravity", &[Product::Points, Product::Results]),
     ("initial_stress", &[Product::Points, Product::Results]),
@@ -155,6 +161,8 @@ pub struct Region {
     pub points_per_cell: Option<usize>,
     /// Whether a structure keeps its shape and moves and turns as a whole. Default: false.
     pub rigid: Option<bool>,
+    /// A wall, lining or slab by its axis: a structure that the .geo does not have, and without `material`.
+    pub plate: Option<Plate>,
 }
 
 /// What a region is.
@@ -217,6 +225,10 @@ pub struct Components {
     pub rotation: Option<f64>,
     /// Excess pore pressure, held at 0 while water flows: the curve is drained (kPa).
     pub pore_pressure: Option<f64>,
+    /// Whether waves leave there: in dynamic phases the components that are not held here have dashpots of ρ c_p across the curve and ρ c_s along it, of
+    /// the soil beside it, in place of supports.
+    #[serde(default)]
+    pub absorbing: bool,
 }
 
 /// Contact between a structure or a wall and soil, or between two bodies.

@@ -1,8 +1,9 @@
 //! Soil that phases remove: what a case says of it, checked, and where the rest ends.
 
 use super::check::Checker;
-use super::checked::{Case, Content, Numerics, Phase, Restore};
+use super::checked::{Case, Numerics, Restore};
 use super::locate::{At, Path};
+use super::placed;
 use super::raw::{self, Analysis, RegionKind};
 use super::structure::suggest;
 use crate::kinematics::Kinematics;
@@ -11,26 +12,31 @@ use crate::soil::Parting;
 use crate::step::Removal;
 
 impl Checker {
-    /// The regions that a phase removes, given the phases before it.
+    /// The regions that phase `number` removes.
     pub(super) fn removed(
         &mut self,
-        phase: &raw::Phase,
-        before: &[Phase],
+        number: usize,
         (file, numerics): (&raw::CaseFile, &Numerics),
         path: &Path,
     ) -> Vec<String> {
+        let phase = &file.phases[number];
         let soil = || file.regions.iter().filter(|(_, region)| region.kind == RegionKind::Mpm).map(|(name, _)| name);
-        let mut gone: Vec<&String> = before.iter().flat_map(|phase| &phase.removed).collect();
+        let mut there = placed::soil_before(file, number);
         let mut removed = Vec::new();
         for (i, name) in phase.remove.iter().enumerate() {
             let path = path.key("remove").index(i);
             let kind = file.regions.get(name).map(|region| region.kind);
             match kind {
-                Some(RegionKind::Mpm) if gone.contains(&name) => {
-                    self.issue(&path, At::Value, format!("`{name}` is removed already"), "take it out");
+                Some(RegionKind::Mpm) if !there.contains(name.as_str()) => {
+                    self.issue(
+                        &path,
+                        At::Value,
+                        format!("`{name}` is removed already, or not placed yet"),
+                        "take it out",
+                    );
                 }
                 Some(RegionKind::Mpm) => {
-                    gone.push(name);
+                    there.remove(name.as_str());
                     removed.push(name.clone());
                 }
                 Some(RegionKind::Fem) => {
@@ -48,7 +54,7 @@ impl Checker {
             }
         }
         let path = path.key("remove");
-        if !removed.is_empty() && soil().all(|name| gone.contains(&name)) {
+        if !removed.is_empty() && there.is_empty() {
             self.issue(
                 &path,
                 At::Key,
@@ -70,16 +76,12 @@ impl Checker {
 
 /// What a phase removes from the background grid `mesh`, given its number; `None` of nothing.
 pub fn of_phase<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>, phase: usize) -> Option<Removal<2>> {
-    let in_phases = |phases: &[Phase]| -> Vec<bool> {
-        mesh.regions.iter().map(|name| phases.iter().any(|phase| phase.removed.contains(name))).collect()
-    };
-    let removed = in_phases(&case.phases[phase..=phase]);
+    let removed: Vec<bool> = mesh.regions.iter().map(|name| case.phases[phase].removed.contains(name)).collect();
     if !removed.contains(&true) {
         return None;
     }
-    let gone = in_phases(&case.phases[..phase]);
-    let is_soil = |name: &String| case.content(name).is_some_and(|content| matches!(content, Content::Mpm { .. }));
-    let there: Vec<bool> = mesh.regions.iter().zip(&gone).map(|(name, gone)| is_soil(name) && !gone).collect();
+    let before = case.soil_before(phase);
+    let there: Vec<bool> = mesh.regions.iter().map(|name| before.contains(name.as_str())).collect();
     let parting = Parting::<K>::new(mesh.clone(), &there, &removed);
     Some(Removal { regions: removed, parting: Box::new(parting) })
 }

@@ -1,14 +1,14 @@
 //! From a checked case to a scene: the only place that decides which terms exist.
 
-use super::checked::{Analysis, Case, Content, Geometry, Material, Region, Restore, Touched};
+use super::checked::{Analysis, Case, Content, Geometry, LoadField, Material, Region, Restore, Touched};
 use super::find::{filled, mean_size, region_index, regions};
 use super::outputs::outputs;
 use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, pores, removed,
-    scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
+    absorbing, bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts,
+    placed, pores, removed, scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
 };
 use crate::error::{Error, Result};
 use crate::gravity::Gravity;
@@ -23,8 +23,8 @@ use crate::quadrature::{Bounded, Quadrature, Resampled, Volumes};
 use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
 use crate::step::{Fem, Phase, Scene, Search, State, overlap};
 use crate::term::{
-    BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation, PoreWater,
-    PressureField, SmoothPressure, Term,
+    Bar, Bars, BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation,
+    PoreWater, PressureField, SmoothPressure, Term,
 };
 use crate::time_value::TimeValue;
 use std::collections::BTreeSet;
@@ -93,6 +93,7 @@ pub fn rehearse(case: &Case, mesh: Mesh<2>, points: Points<2>) -> Result<()> {
         Geometry::PlaneStrain => scene::<PlaneStrain>(case, mesh)?,
         Geometry::Axisymmetric => scene::<Axisymmetric>(case, mesh)?,
     };
+    outputs::watches(case, &scene)?;
     first(case, &scene, parts).map(drop)
 }
 
@@ -128,6 +129,11 @@ impl Begin<'_> {
 /// `Input` when a point is not in its cell, or soil and a structure are in the same place.
 pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2]) -> Result<State<2>> {
     seeded::check_places(&scene.mesh, &scene.locator, &points)?;
+    let comes_later: Vec<bool> = scene.mesh.regions.iter().map(|name| case.comes_later(name)).collect();
+    if comes_later.contains(&true) {
+        let there = |&p: &usize| !comes_later[usize::from(points.region[p])];
+        points = points.select(&(0..points.len()).filter(there).collect::<Vec<_>>());
+    }
     overlap::at_first(scene, &points)?;
     if scene.has_pressure_field() {
         begin_pressure(case, &scene.mesh, &mut points)?;
@@ -146,7 +152,10 @@ pub fn first(case: &Case, scene: &Scene<2>, [mut points, mut fem]: [Points<2>; 2
     }
     let first_step = scene.phases.first().map_or(0.0, |p| p.step.initial);
     let fem_parametric = scene.fem.as_ref().map_or(Ok(Vec::new()), |part| parts::places(&part.mesh, &fem))?;
-    Ok(State { fem, fem_parametric, time: scene.begins, ..State::new(points, scene.displacements(), first_step) })
+    let state = State::new(points, scene.displacements(), first_step);
+    let mut state = State { fem, fem_parametric, time: scene.begins, ..state };
+    state.begin_bars(scene);
+    Ok(state)
 }
 
 /// Hands the pressure field its share: the points bring the elastic strain of all their stress.
@@ -231,6 +240,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let [on_grid, on_elements] = curve_loads::terms::<K>(case, (&mesh, fem.as_ref()), &bodies[..structures])?;
     terms.extend(on_grid);
 
+    let bars: std::sync::Arc<[Bar<2>]> = bars::bars(case, &mesh, fem.as_ref())?.into();
     let fem = match fem {
         Some(part) => {
             let mut terms = internal::<K>(case, &part, dynamic, pressure_unit, shear)?;
@@ -244,6 +254,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
             }
             terms.extend(water::on_elements::<K>(case, &part, size));
             terms.extend(on_elements);
+            if !bars.is_empty() {
+                terms.push(Box::new(Bars(bars.clone())));
+            }
             terms.extend(rigid::terms::<K>(case, &part, &bodies[..structures], dynamic, size));
             for structure in bodies[..structures].iter().zip(0..) {
                 terms.extend(curve_loads::on_rigid::<K>(case, &part, structure)?);
@@ -259,6 +272,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         }
         None => None,
     };
+    terms.extend(absorbing::term::<K>(case, [&mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh)])?.map(boxed));
     let levels = case.water.as_ref().and_then(|water| water.levels(size));
     let interfaces =
         contact_interfaces::interfaces::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
@@ -267,16 +281,19 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     }
     let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
-    let supports = holds.supports()?;
+    let (supports, free) = (holds.supports()?, absorbing::components(case, &mesh)?);
     let search = search::search(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
     let of_structures = fem.as_ref().map_or(&mesh, |fem| &fem.mesh);
     let staged = |(number, p)| {
-        let held = staged::held(case, &mesh, of_structures, &bodies, p)?;
+        let mut held = staged::held(case, &mesh, of_structures, &bodies, p)?;
+        held.extend(absorbing::held(case, &mesh, p)?);
         let changes = changes::of_phase(case, [&mesh, of_structures], number)?;
         Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
     let phases = case.phases.iter().enumerate().map(staged).collect::<Result<_>>()?;
     let removals = (0..case.phases.len()).map(|number| removed::of_phase::<K>(case, &mesh, number)).collect();
+    let placements = (0..case.phases.len()).map(|number| placed::of_phase::<K>(case, &mesh, number));
+    let placements = placements.collect::<Result<_>>()?;
     let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();
@@ -287,15 +304,18 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         terms,
         fem,
         bodies,
+        bars,
         interfaces,
         levels,
         pressure_unit,
         carried,
         water,
         supports,
+        absorbing: free,
         begins: if case.equilibrium { -case.phases[0].duration } else { 0.0 },
         phases,
         removals,
+        placements,
         traced,
         loaded: loaded.into_iter().collect(),
         basis,
@@ -307,6 +327,10 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     };
     controls::of_displacements(&scene)?;
     Ok(scene)
+}
+
+fn boxed(term: impl Term<2> + 'static) -> Box<dyn Term<2>> {
+    Box::new(term)
 }
 
 /// The terms of the stress in the cells of `mesh`.
@@ -389,6 +413,7 @@ fn phase(
         .chain(phase.gravity.values())
         .chain(&phase.reduction)
         .collect();
+    let by_formula = phase.tractions.iter().flat_map(|t| t.fields.iter().flatten()).any(LoadField::is_formula_in_time);
     let values = phase.prescribed.iter().map(|p| &p.displacement).chain(loads.iter().copied());
     let every = case.output.every.filter(|_| !(case.equilibrium && number == 0));
     Ok(Phase {
@@ -399,7 +424,8 @@ fn phase(
         duration: phase.duration,
         step: phase.step,
         prescribed: holds.prescribed(phase)?,
-        loads_change: loads.iter().any(|value| !matches!(value, TimeValue::Constant(_))),
+        loads_change: by_formula || loads.iter().any(|value| !matches!(value, TimeValue::Constant(_))),
+        by_formula,
         reduction: phase.reduction.clone(),
         search: search.filter(|_| phase.analysis == Analysis::StrengthReduction).cloned(),
         held: Vec::new(),

@@ -8,7 +8,7 @@ use crate::error::{Error, Result};
 use crate::material::{State, is_beyond_yield, odd_poisson, on_poisson, spatial};
 use crate::mesh::Mesh;
 use crate::points::Points;
-use crate::seed::{QUADRATURE, RegionSeed, seed};
+use crate::seed::{QUADRATURE, RegionSeed, SECTIONS, seed};
 
 /// Fills the regions of `case` in `mesh`, whose groups its names have been held against.
 ///
@@ -99,6 +99,9 @@ fn filled(case: &Case, mesh: &Mesh<2>) -> Result<Vec<Filled>> {
     for (index, region) in case.regions.iter().enumerate() {
         let (material, points_per_cell) = match region.content {
             Content::Mpm { material, points_per_cell } => (material, points_per_cell as u32),
+            Content::Structure { material, .. } if case.plates.iter().any(|plate| plate.region == index) => {
+                (material, SECTIONS)
+            }
             Content::Fem { material } | Content::Structure { material, .. } => (material, QUADRATURE),
             Content::Buffer => continue,
         };
@@ -142,8 +145,11 @@ fn check_random_strength(case: &Case, mesh: &Mesh<2>, points: &Points<2>) -> Res
 /// the one they are seeded with, so that Kirchhoff and Cauchy stress are the same.
 fn rest(case: &Case, mesh: &Mesh<2>, filled: &[Filled], k0: &[EarthPressure], points: &mut Points<2>) -> Result<()> {
     points.stress = at_rest::stress(case, mesh, k0, points)?;
-    let soils = filled.iter().filter(|f| !case.regions[f.index].content.is_structure());
-    for Filled { material, seed, .. } in soils {
+    let is_there = |f: &&Filled| {
+        let region = &case.regions[f.index];
+        !region.content.is_structure() && !case.comes_later(&region.name)
+    };
+    for Filled { material, seed, .. } in filled.iter().filter(is_there) {
         let model = &*case.materials[*material].model;
         for p in (0..points.len()).filter(|&p| points.region[p] == seed.region) {
             points.elastic[p] = spatial::elastic_from_stress(model, points.seeded_height(p), &points.stress[p]);

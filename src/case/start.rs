@@ -112,7 +112,8 @@ fn entries(tree: &Value, phases: &[Value], start: Option<&Start>) -> Value {
 fn names_of_materials<'a>(kept: &'a Map<String, Value>, phases: &'a [Value]) -> impl Iterator<Item = &'a str> {
     let regions = kept.get("regions").and_then(Value::as_object).into_iter().flat_map(Map::values);
     let begun = regions.filter_map(|region| region.get("material"));
-    let changes = phases.iter().filter_map(|phase| phase.get("materials")?.as_object()).flat_map(Map::values);
+    let of_phase = |phase: &'a Value| ["materials", "place"].into_iter().filter_map(|key| phase.get(key)?.as_object());
+    let changes = phases.iter().flat_map(of_phase).flat_map(Map::values);
     begun.chain(changes).filter_map(Value::as_str)
 }
 

@@ -11,7 +11,7 @@ use self::falls::{GOOD_STEP, LONG_STEP};
 use super::checked::{Case, Content, Phase, Touched, Touching};
 use super::layout::{Bounds, bounds, gap, moves};
 use super::unconnected::Place;
-use super::{at_rest, drains, equilibrium, unlikely};
+use super::{at_rest, drains, equilibrium, histories, plates, unlikely};
 use crate::error::Result;
 use crate::geometry::box_around;
 use crate::mesh::quality::SAME;
@@ -111,8 +111,9 @@ fn sinks(phase: &Phase, name: &str) -> bool {
 pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Result<Vec<String>> {
     let of_rest: Vec<String> = at_rest::imbalance(case, mesh)?.into_iter().collect();
     let of_water = drains::on_mesh(case, mesh)?;
-    let of_steps = [coarse(case, mesh), falls::on_mesh(case, mesh)].concat();
-    Ok([of_steps, contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh), of_rest, of_water].concat())
+    let of_steps = [coarse(case, mesh), plates::coarse(case, mesh), falls::on_mesh(case, mesh)].concat();
+    let of_loads = [contacts::on_mesh(case, mesh), loads::on_mesh(case, mesh)].concat();
+    Ok([of_steps, of_loads, of_rest, of_water, histories::on_mesh(case, mesh)].concat())
 }
 
 /// Cells and steps that are too coarse for the structures that move in soil, and ways that lead out of the grid.

@@ -2,7 +2,7 @@
 
 use super::changes;
 use super::check::Checker;
-use super::checked::{Case, Content, LoadProfile, Phase, SurfaceLoad, Water};
+use super::checked::{Case, Content, LoadProfile, Phase, Quantity, SurfaceLoad, Water};
 use super::find::{mean_size, region_index, regions};
 use super::locate::{At, Path};
 use super::raw;
@@ -154,7 +154,8 @@ fn is_all_around(case: &Case, load: &SurfaceLoad) -> bool {
 /// Whether the surface of the material points must be known: for loads on it, for other terms, or to be shown.
 pub fn needs_surface(case: &Case) -> bool {
     let water = case.water.as_ref().is_some_and(|water| water.level.is_some());
-    let needed = case.output.surface || water || case.drained_surface.is_some();
+    let measured = case.output.history.iter().any(|entry| entry.quantities.contains(&Quantity::Thickness));
+    let needed = case.output.surface || water || measured || case.drained_surface.is_some();
     needed || case.phases.iter().any(|phase| !phase.surface_loads.is_empty())
 }
 

@@ -6,7 +6,7 @@ use super::mesh;
 use super::print::{Outcome, note, print};
 use crate::case::checked::Source;
 use crate::case::names::Of;
-use crate::case::{self, Review, scene, seeding, unconnected, unmeant};
+use crate::case::{self, Review, plates, scene, seeding, unconnected, unmeant};
 use crate::run::WARNING;
 
 #[derive(clap::Args)]
@@ -37,7 +37,8 @@ pub fn run(args: &Args) -> Outcome {
         return Err(mistakes);
     }
     if let Some(sound) = sound {
-        let mesh = given.map_or_else(|| mesh::generated(&sound.mesh, &args.limits), Ok)?;
+        let mut mesh = given.map_or_else(|| mesh::generated(&sound.mesh, &args.limits), Ok)?;
+        plates::append(&sound, &mut mesh)?;
         let found = unmeant::on_mesh(&sound, &mesh)?;
         warnings += found.iter().filter(|text| text.starts_with(WARNING)).count();
         found.iter().for_each(|text| note(text));

@@ -1,6 +1,7 @@
 //! `mpm export`: from `results/` to series of `.vtu` with their `.pvd`.
 
 use super::args::StageArgs;
+use super::frames;
 use super::mesh;
 use super::print::{Outcome, note, print};
 use super::stage::{Inputs, POINTS, Stage};
@@ -8,8 +9,8 @@ use crate::case::checked::Encoding;
 use crate::case::parts;
 use crate::case::raw::Product;
 use crate::error::{Error, Result};
-use crate::io::export::Exported;
 pub use crate::io::export::STAGE;
+use crate::io::export::{Exported, Section, Series, Sheet};
 use crate::io::run_folder::{RunFolder, Standing};
 use crate::io::{export, frame, hash, provenance, vtu};
 use std::fs;
@@ -22,13 +23,84 @@ pub struct Args {
     /// Export the run that was not finished, where there are finished results too
     #[arg(long)]
     pub unfinished: bool,
+    /// Write numbers of frames as a table in place of the series: of the material points, or along a line, with all fields of the output
+    #[arg(long, value_name = "FILE.csv")]
+    pub csv: Option<PathBuf>,
+    /// The points in a box alone (m)
+    #[arg(long, value_name = "X0,Y0,X1,Y1", requires = "csv", allow_hyphen_values = true, value_parser = frames::box_of)]
+    pub window: Option<[f64; 4]>,
+    /// Values of the soil along a line, in place of those of points (m)
+    #[arg(long, value_name = "X0,Y0,X1,Y1", requires = "csv", conflicts_with = "window", allow_hyphen_values = true,
+        value_parser = frames::ends)]
+    pub along: Option<[f64; 4]>,
+    /// The number of places along the line, its ends among them [default: 101]
+    #[arg(long, value_name = "N", requires = "along", value_parser = clap::value_parser!(u32).range(2..=100_000))]
+    pub stations: Option<u32>,
+    /// The time of the frame in s: that of the nearest one
+    #[arg(long, value_name = "T", requires = "csv", conflicts_with_all = ["frame", "times"])]
+    pub time: Option<f64>,
+    /// The frame by its number, from 0, or `last` [default: last]
+    #[arg(long, value_name = "N", requires = "csv", conflicts_with = "times")]
+    pub frame: Option<String>,
+    /// Times of several frames, whose rows follow each other
+    #[arg(long, value_name = "T,T,...", requires = "csv", value_delimiter = ',')]
+    pub times: Vec<f64>,
 }
+
+/// Places along a line, unless another number is wanted.
+pub const STATIONS: u32 = 101;
 
 pub fn run(args: &Args) -> Outcome {
     let stage = Stage::open(&args.stage)?;
     stage.lock()?;
     let run = if args.unfinished { unfinished(&stage)? } else { shown(&stage)? };
+    if let Some(path) = &args.csv {
+        return table(&stage, &run, path, args);
+    }
     work(&stage, &run, stage.folder())
+}
+
+/// Writes numbers of frames as a table.
+fn table(stage: &Stage, run: &RunFolder, path: &Path, args: &Args) -> Outcome {
+    let mesh = mesh::read(stage)?;
+    check_run(stage, run)?;
+    let case = &stage.loaded.case;
+    let regions = parts::of_series(case, &mesh);
+    let series = Series::open(&run.results(), &mesh, &regions)?;
+    let infos = &series.infos;
+    let chosen = match (&args.frame, args.time) {
+        _ if !args.times.is_empty() => frames::at(infos, &args.times)?,
+        (Some(number), _) => vec![frames::numbered(infos, number)?],
+        (None, Some(time)) => frames::at(infos, &[time])?,
+        (None, None) => vec![infos.len() - 1],
+    };
+    let corners = |[a, b, c, d]: [f64; 4]| [[a, b], [c, d]];
+    let section = match (args.window, args.along) {
+        (Some(window), _) => Section::Window(corners(window)),
+        (None, Some(ends)) => {
+            Section::Along { ends: corners(ends), stations: args.stations.unwrap_or(STATIONS) as usize }
+        }
+        (None, None) => Section::Points,
+    };
+    let fields: Vec<String> = case.output.fields.iter().map(|field| field.name().to_owned()).collect();
+    let mut all = Sheet::default();
+    for i in chosen {
+        let Sheet { headings, rows } = series.section(i, &fields, &section)?;
+        all.headings = headings;
+        all.rows.extend(rows);
+    }
+    let empty = all.rows.iter().filter(|row| row.contains(&None)).count();
+    if all.rows.len() == empty {
+        let problem = "there is no soil at that place and time";
+        return Err(
+            Error::input(path.display(), problem, "choose another `--window` or `--along`, or another time").into()
+        );
+    }
+    crate::io::table::write(path, &all.headings, &all.rows)?;
+    if empty > 0 {
+        note(&format!("note: {empty} of {} rows are empty: there is no soil at those places", all.rows.len()));
+    }
+    print(&format!("{}: {} rows\n", path.display(), all.rows.len()))
 }
 
 /// Exports what an analysis came to that could not go on: beside finished results into the folder of its own, so that these keep
@@ -151,6 +223,7 @@ fn series(output: &Path) -> Vec<PathBuf> {
             entries.filter(|path| path.extension().is_some_and(|kind| kind == "vtu" || kind == "vtp" || kind == "pvd")),
         );
     }
+    files.extend(Some(output.join(export::SECTIONS)).filter(|path| path.exists()));
     files.retain(|path| *path != output.join(POINTS));
     files.sort();
     files

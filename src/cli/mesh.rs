@@ -9,7 +9,7 @@ use crate::case::names::{Groups, Of};
 use crate::case::raw::Product;
 use crate::case::unconnected::{self, Place};
 use crate::case::unmeant;
-use crate::case::{checked, scheme};
+use crate::case::{checked, plates, scheme};
 use crate::error::{Error, Result};
 use crate::io::{atomic, provenance};
 use crate::machine;
@@ -110,13 +110,14 @@ pub fn work(stage: &Stage, gmsh: &Gmsh) -> Outcome {
     let scratch = Scratch::new(stage)?;
     let candidate = scratch.folder.join("mesh.msh");
     let caught = signals::catch()?;
-    let mesh = make(&case.mesh, &worker, &candidate, |groups| stage.loaded.check_names(&named(groups.clone())))?;
+    let mut mesh = make(&case.mesh, &worker, &candidate, |groups| stage.loaded.check_names(&named(groups.clone())))?;
     drop(caught);
     if matches!(case.mesh.source, Source::Mesh(_)) {
         stage.loaded.check_names(&names_of(&mesh, Of::Given))?;
     }
     msh::seal(&candidate).map_err(|e| atomic::unwritable(&candidate, &e))?;
     let summary = quality::check(&mesh, case.mesh.source.path())?;
+    plates::append(case, &mut mesh)?;
     let rename = || fs::rename(&candidate, stage.mesh()).map_err(|e| atomic::unwritable(&stage.mesh(), &e));
     record.around(stage.folder(), rename)?;
     scratch.keep_folder();
@@ -199,7 +200,7 @@ impl Drop for Scratch {
     }
 }
 
-/// The mesh of an earlier `mpm mesh`, checked as when it was made, and held against the names in the case.
+/// The mesh of an earlier `mpm mesh`, checked as when it was made, and held against the names in the case; with the strips of the plates.
 ///
 /// # Errors
 /// Input: no mesh, one that cannot be read or has bad cells, and each name of the case that it does not have.
@@ -208,9 +209,10 @@ pub fn read(stage: &Stage) -> std::result::Result<Mesh<2>, Vec<Error>> {
         let place = stage.mesh().display().to_string();
         return Err(Error::input(place, "there is no mesh yet", "run `mpm mesh` first, or `mpm run` for all").into());
     }
-    let mesh = msh::read(&stage.mesh())?;
+    let mut mesh = msh::read(&stage.mesh())?;
     quality::check(&mesh, &stage.mesh())?;
     stage.loaded.check_names(&names_of(&mesh, Of::Made))?;
+    plates::append(&stage.loaded.case, &mut mesh)?;
     Ok(mesh)
 }
 

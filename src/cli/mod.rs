@@ -4,6 +4,7 @@ mod args;
 mod check;
 mod completions;
 mod export;
+mod frames;
 mod info;
 mod man;
 mod mesh;
@@ -40,7 +41,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Write a folder with a case that runs, from a template: footing, penetration, anchor, slope, pipe, consolidation, silo, impact, wall
+    /// Write a folder with a case that runs, from a template: footing, penetration, anchor, slope, pipe, consolidation, silo, impact, wall, excavation, embankment, cpt
     New(new::Args),
     /// Mesh the .geo of a case: writes mesh.msh
     Mesh(mesh::Args),

@@ -1,7 +1,9 @@
 //! `mpm plot`: curves of histories, or pictures of a field.
 
+mod along;
 mod curves;
 pub mod field;
+mod plate;
 mod table;
 
 use super::print::Outcome;
@@ -20,11 +22,23 @@ pub struct Args {
     curves: curves::Args,
     #[command(flatten)]
     field: field::Args,
+    /// Draw the displacement of a plate and the forces in its sections along its axis, at the last frame, or at --times
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["field", "x", "y", "iterations", "energy", "distribution"])]
+    plate: Option<String>,
 }
 
 pub fn run(args: &Args) -> Outcome {
     if let Some(name) = &args.field.field {
-        return args.cases.iter().try_for_each(|case| field::run(case, args.output.as_deref(), name, &args.field));
+        return args
+            .cases
+            .iter()
+            .try_for_each(|case| field::run(case, args.output.as_deref(), name, &args.field, &args.curves));
+    }
+    if args.plate.is_none() && !args.field.times.is_empty() {
+        return Err(Error::input("--times", "they are times of frames", "add --field or --plate").into());
+    }
+    if let Some(name) = &args.plate {
+        return args.cases.iter().try_for_each(|case| plate::run(case, args.output.as_deref(), name, &args.field));
     }
     let tables: Vec<PathBuf> = args.cases.iter().filter_map(|path| table::of(path)).collect();
     match &tables[..] {

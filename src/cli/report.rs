@@ -143,7 +143,8 @@ fn pictures(stage: &Stage, mesh: &Mesh<2>, run: &RunFolder, args: &Args) -> Resu
     let has = |name: &str| case.output.fields.iter().any(|field| field.name() == name);
     let usual = ["displacement", "plastic_strain"].into_iter().filter(|name| has(name)).map(str::to_owned);
     let fields: Vec<String> = if args.field.is_empty() { usual.collect() } else { args.field.clone() };
-    let frames = if args.times.is_empty() { ends(&series.infos) } else { plot::field::at(&series.infos, &args.times)? };
+    let frames =
+        if args.times.is_empty() { ends(&series.infos) } else { super::frames::at(&series.infos, &args.times)? };
     let options = Options { width: Some(PIXELS), axisymmetric: regions.axisymmetric, ..Options::default() };
     let mut pictures = Vec::new();
     for field in fields {

@@ -3,25 +3,36 @@
 use super::colour::{Map, Rgb};
 use super::raster::Raster;
 use super::ticks::Ticks;
-use super::{Canvas, Drawn, HPos, INK, Picture, Text, VPos};
+use super::{Canvas, Drawn, GREY, HPos, INK, Picture, Text, VPos, width, wrapped};
 use crate::error::{Error, Result};
 use crate::io::container::Data;
 use crate::io::export::Shown;
-use crate::io::vtu::{Array, Grid};
+use crate::io::vtu::Array;
 use plotters::prelude::DrawingBackend;
 
 mod asked;
+mod contours;
+mod overlay;
+mod paper;
+mod range;
+mod triangles;
 
 pub use asked::Asked;
+use contours::{multiples, segment};
+use overlay::Overlay;
+use paper::{LEFT, Paper};
+use triangles::{Triangles, cell_edges, place, triangles};
 
-/// Space beside the axes for the title and ticks of the vertical one (points).
-const LEFT: f64 = 62.0;
 /// For the colour bar and its numbers.
 const RIGHT: f64 = 104.0;
-/// For the titles of the picture and of the colour bar.
-const ABOVE: f64 = 40.0;
+/// For the title of the colour bar, and what is beyond its ends.
+const ABOVE: f64 = 26.0;
+/// For a line of the title.
+const LINE: f64 = 18.0;
 /// For the title and ticks of the horizontal axis.
 const BELOW: f64 = 48.0;
+/// For the legend of arrows and the like.
+const LEGEND: f64 = 20.0;
 /// Width of the colour bar (points).
 const BAR: f64 = 14.0;
 /// Its distance from the axes (points).
@@ -46,7 +57,7 @@ const STRUCTURES: u16 = 1 << 15;
 /// How a field is to be seen.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Options {
-    /// Values at the ends of the colour bar; without it the least and the greatest.
+    /// Values at the ends of the colour bar; without it those that a small part of the soil lies beyond.
     pub range: Option<[f64; 2]>,
     /// What is seen (m): x and y of the lower left corner, and of the upper right one.
     pub window: Option<[f64; 4]>,
@@ -60,18 +71,32 @@ pub struct Options {
     pub mirror: bool,
     /// Whether x is the radius.
     pub axisymmetric: bool,
+    /// The vector that arrows show.
+    pub arrows: Option<String>,
+    /// Whether crosses show principal stresses.
+    pub crosses: bool,
+    /// Whether points at yield and at limits of tension are drawn.
+    pub plastic_points: bool,
+    /// Whether lines join places of one value.
+    pub contours: bool,
+    /// The spacing (m) of a square net that was on the soil before it was displaced.
+    pub net: Option<f64>,
+    /// Regions that are not drawn.
+    pub hidden: Vec<u16>,
+}
+
+impl Options {
+    /// The fields that are needed besides the one in colours.
+    pub fn needs(&self) -> impl Iterator<Item = String> {
+        let net = self.net.map(|_| "displacement".to_owned());
+        let stress = self.crosses.then(|| "stress".to_owned());
+        let plastic = self.plastic_points.then(|| "plastic_points".to_owned());
+        self.arrows.clone().into_iter().chain(stress).chain(plastic).chain(net)
+    }
 }
 
 /// The pixels of a PNG that is not told how wide to be.
 const WIDTH: u32 = 1600;
-
-/// Triangles in the plane, with a value at each corner.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Triangles {
-    places: Vec<[[f64; 2]; 3]>,
-    values: Vec<[f64; 3]>,
-    region: Vec<u16>,
-}
 
 /// A line along a structure, with the contact pressure (kPa) and the unit normal into the soil at both ends.
 #[derive(Clone, Debug, PartialEq)]
@@ -92,6 +117,11 @@ pub struct Field {
     /// Edges of the cells of the grid (m).
     edges: Vec<[[f64; 2]; 2]>,
     contact: Vec<Pressed>,
+    overlay: Overlay,
+    /// Where the corners of the triangles were (m) before they were displaced, if a net is drawn.
+    seeded: [Vec<[f64; 3]>; 2],
+    /// Lines that the title has room for at least.
+    least_lines: usize,
     options: Options,
 }
 
@@ -115,7 +145,8 @@ impl Field {
             return Err(Error::input(format!("--field {}", asked.array), "there is no such field", remedy));
         };
         let structures = shown.structures.as_ref().map_or_else(Triangles::default, |grid| {
-            triangles(grid, &vec![0.0; grid.points.len() / 3], |region| !is_soil[region as usize])
+            let wanted = |region: u16| !is_soil[region as usize] && !options.hidden.contains(&region);
+            triangles(grid, &vec![0.0; grid.points.len() / 3], wanted)
         });
         let mut edges = Vec::new();
         if options.mesh {
@@ -148,14 +179,23 @@ impl Field {
                 }),
             }));
         }
-        Ok(Self { title, name, soil: triangles(soil, &values, |_| true), structures, edges, contact, options })
+        let is_shown = |region: u16| !options.hidden.contains(&region);
+        let overlay = Overlay::of(&shown.points, options.arrows.as_deref(), options.crosses, options.plastic_points)?;
+        let seeded = match options.net.and_then(|_| soil.point_data.iter().find(|a| a.name == "displacement [m]")) {
+            Some(Array { data: Data::F64(way), .. }) => [0, 1].map(|d| {
+                let first: Vec<f64> =
+                    soil.points.chunks_exact(3).zip(way.chunks_exact(3)).map(|(x, u)| x[d] - u[d]).collect();
+                triangles(soil, &first, is_shown).values
+            }),
+            _ => Default::default(),
+        };
+        let soil = triangles(soil, &values, is_shown);
+        Ok(Self { title, name, soil, structures, edges, contact, overlay, seeded, least_lines: 0, options })
     }
 
-    /// The least and the greatest value; `None` where there is none.
+    /// The range of the colour bar of its own; `None` where there is no value.
     pub fn extent(&self) -> Option<[f64; 2]> {
-        let finite = self.soil.values.iter().flatten().filter(|v| v.is_finite());
-        let range = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], &v| [l.min(v), h.max(v)]);
-        (range[0] <= range[1]).then_some(range)
+        self.soil.usual_range()
     }
 
     /// The box around what there is (m): x and y of the lower left and the upper right corner.
@@ -171,10 +211,21 @@ impl Field {
         if b[0] > b[2] { [0.0, 0.0, 1.0, 1.0] } else { b }
     }
 
-    /// Shows the same range as other pictures of a series, and what is in the same box (m).
-    pub fn fix(&mut self, range: [f64; 2], window: [f64; 4]) {
+    /// Shows the same range as other pictures of a series, and what is in the same box (m), below as many lines of the title.
+    pub fn fix(&mut self, range: [f64; 2], window: [f64; 4], lines: usize) {
         self.options.range.get_or_insert(range);
         self.options.window.get_or_insert(around(window));
+        self.least_lines = lines;
+    }
+
+    /// The number of lines of the title.
+    pub fn title_lines(&self) -> usize {
+        self.lines().len().max(self.least_lines)
+    }
+
+    /// Width of the picture (points).
+    fn width(&self) -> f64 {
+        f64::from(self.options.width.unwrap_or(WIDTH)) / f64::from(super::PIXELS)
     }
 
     fn range(&self) -> [f64; 2] {
@@ -198,11 +249,32 @@ impl Field {
 
     fn paper(&self) -> Paper {
         let [x0, y0, x1, y1] = self.options.window.unwrap_or_else(|| around(self.bounds()));
-        let width = f64::from(self.options.width.unwrap_or(WIDTH)) / f64::from(super::PIXELS);
+        let width = self.width();
         let (wide, high) = (x1 - x0, y1 - y0);
         let scale = ((width - LEFT - RIGHT) / wide).min(HIGHEST * width / high);
         let size = [scale * wide, scale * high];
-        Paper { window: [x0, y0, x1, y1], scale, size, height: size[1].max(LOWEST) + ABOVE + BELOW, width }
+        let above = ABOVE + LINE * self.title_lines() as f64;
+        let legend = if self.overlay.has_legend() { LEGEND } else { 0.0 };
+        let height = size[1].max(LOWEST) + above + BELOW + legend;
+        Paper { window: [x0, y0, x1, y1], scale, size, above, height, width }
+    }
+
+    /// The lines of the title.
+    fn lines(&self) -> Vec<String> {
+        wrapped(&self.title, TITLE, self.width() - LEFT - 8.0)
+    }
+
+    /// What lies beyond the ends of the colour bar.
+    fn beyond(&self) -> String {
+        let ([low, high], Some([least, greatest])) = (self.range(), self.soil.peaks()) else { return String::new() };
+        let hair = 1e-6 * (high - low);
+        let said = |what: &str, (value, x): (f64, [f64; 2])| {
+            let value: f64 = format!("{value:.3e}").parse().unwrap_or(value);
+            format!("{what} {value} at ({:.3}, {:.3}) m", x[0], x[1])
+        };
+        let least = (least.0 < low - hair).then(|| said("least", least));
+        let greatest = (greatest.0 > high + hair).then(|| said("largest", greatest));
+        least.into_iter().chain(greatest).collect::<Vec<_>>().join(", ").replace('-', "−")
     }
 
     /// The largest contact pressure (kPa), if there are lines along structures.
@@ -215,19 +287,23 @@ impl Field {
         let paper = self.paper();
         let (map, [low, high]) = self.scale();
         let colour = |value: f64| if value.is_finite() { map.at((value - low) / (high - low)) } else { UNKNOWN };
-        raster.within([LEFT, ABOVE], [LEFT + paper.size[0], ABOVE + paper.size[1]]);
+        raster.within([LEFT, paper.above], [LEFT + paper.size[0], paper.above + paper.size[1]]);
         let sides: &[f64] = if self.options.mirror { &[1.0, -1.0] } else { &[1.0] };
         for &side in sides {
             let at = |x: &[f64; 2]| paper.at([side * x[0], x[1]]);
             for ((x, values), region) in self.soil.places.iter().zip(&self.soil.values).zip(&self.soil.region) {
                 raster.triangle(&x.map(|x| at(&x)), values, region + 1, colour);
             }
+            self.contour(raster, &|x| at(&x));
             for [a, b] in &self.edges {
                 raster.line(at(a), at(b), 0.4, LINES, 0.45);
             }
             for (x, region) in self.structures.places.iter().zip(&self.structures.region) {
                 raster.triangle(&x.map(|x| at(&x)), &[0.0; 3], STRUCTURES + region, |_| STRUCTURE);
             }
+        }
+        for &side in sides {
+            self.overlay.fill(raster, &paper, side);
         }
         raster.outline(LINES);
         let most = self.largest_pressure().unwrap_or(0.0);
@@ -246,12 +322,35 @@ impl Field {
                 raster.line(d, c, 0.8, CONTACT, 1.0);
             }
         }
-        let bar = [LEFT + paper.size[0] + BESIDE, ABOVE];
+        let bar = [LEFT + paper.size[0] + BESIDE, paper.above];
         let [bottom, top] = self.range();
         let corner = |i: usize, j: usize| [bar[0] + BAR * i as f64, bar[1] + paper.size[1] * j as f64];
         raster.within(corner(0, 0), corner(1, 1));
         raster.triangle(&[corner(0, 0), corner(1, 0), corner(0, 1)], &[top, top, bottom], 0, colour);
         raster.triangle(&[corner(1, 0), corner(1, 1), corner(0, 1)], &[top, bottom, bottom], 0, colour);
+    }
+
+    /// Draws lines of one value, at the ticks of the colour bar, and the net.
+    fn contour(&self, raster: &mut Raster, at: &dyn Fn([f64; 2]) -> [f64; 2]) {
+        let [low, high] = self.range();
+        let levels =
+            if self.options.contours { self.ticks(self.paper().size[1], low, high).values } else { Vec::new() };
+        for (x, values) in self.soil.places.iter().zip(&self.soil.values) {
+            for [a, b] in levels.iter().filter_map(|&level| segment(x, values, level)) {
+                raster.line(at(a), at(b), 0.7, LINES, 0.75);
+            }
+        }
+        let Some(spacing) = self.options.net else { return };
+        for (x, values) in self.seeded.iter().flat_map(|seeded| self.soil.places.iter().zip(seeded)) {
+            for [a, b] in multiples(values, spacing).filter_map(|level| segment(x, values, level)) {
+                raster.line(at(a), at(b), 0.6, LINES, 0.6);
+            }
+        }
+    }
+
+    /// The ticks of the colour bar, which is so high (points).
+    fn ticks(&self, height: f64, low: f64, high: f64) -> Ticks {
+        Ticks::within(&(low..=high), (height / 40.0) as usize + 1)
     }
 
     fn painted(&self, pixels: u32) -> Raster {
@@ -261,22 +360,7 @@ impl Field {
     }
 }
 
-/// Where the window is on the paper.
-struct Paper {
-    window: [f64; 4],
-    /// Points of the paper in a metre.
-    scale: f64,
-    /// Of the axes (points).
-    size: [f64; 2],
-    height: f64,
-    width: f64,
-}
-
-impl Paper {
-    fn at(&self, x: [f64; 2]) -> [f64; 2] {
-        [LEFT + self.scale * (x[0] - self.window[0]), ABOVE + self.scale * (self.window[3] - x[1])]
-    }
-}
+const TITLE: Text = Text { size: 13.0, colour: INK, bold: false, at: (HPos::Left, VPos::Top), upwards: false };
 
 impl Picture for Field {
     fn size(&self) -> [u32; 2] {
@@ -319,14 +403,23 @@ impl Picture for Field {
             INK,
             0.6,
         )?;
-        let ticks = Ticks::within(&(bottom..=top), (paper.size[1] / 40.0) as usize + 1);
+        let ticks = self.ticks(paper.size[1], bottom, top);
         for &value in &ticks.values {
             let y = low[1] + (value - bottom) / (top - bottom) * (high[1] - low[1]);
             canvas.line(&[[bar[1], y], [bar[1] + 4.0, y]], INK, 0.6)?;
             canvas.text(&ticks.label(value), [bar[1] + 6.0, y], small(HPos::Left, VPos::Center))?;
         }
-        canvas.text(&self.name, [paper.width - 6.0, high[1] - 8.0], small(HPos::Right, VPos::Bottom))?;
-        canvas.text(&self.title, [low[0], high[1] - 8.0], Text { size: 13.0, ..Text::at(HPos::Left, VPos::Bottom) })?;
+        let name = small(HPos::Right, VPos::Bottom);
+        let room = paper.width - LEFT - 6.0;
+        canvas.fitted(&self.name, [paper.width - 6.0, high[1] - 8.0], name, room)?;
+        let (beyond, left) = (self.beyond(), small(HPos::Left, VPos::Bottom));
+        let room = room - width(&self.name, name) - 12.0;
+        canvas.fitted(&beyond, [low[0], high[1] - 8.0], Text { colour: GREY, ..left }, room)?;
+        for (i, line) in self.lines().into_iter().enumerate() {
+            canvas.fitted(&line, [low[0], 8.0 + LINE * i as f64], TITLE, paper.width - LEFT - 6.0)?;
+        }
+        let sides: &[f64] = if self.options.mirror { &[1.0, -1.0] } else { &[1.0] };
+        self.overlay.draw(canvas, &paper, sides, paper.height - 0.5 * LEGEND)?;
         if let Some(most) = self.largest_pressure() {
             let text = format!("contact pressure up to {most:.3} kPa");
             canvas.text(&text, [low[0] + 6.0, high[1] + 6.0], small(HPos::Left, VPos::Top))?;
@@ -339,67 +432,6 @@ impl Picture for Field {
 fn around([x0, y0, x1, y1]: [f64; 4]) -> [f64; 4] {
     let margin = MARGIN * (x1 - x0).max(y1 - y0);
     [x0 - margin, y0 - margin, x1 + margin, y1 + margin]
-}
-
-fn place(grid: &Grid, i: i64) -> [f64; 2] {
-    [grid.points[3 * i as usize], grid.points[3 * i as usize + 1]]
-}
-
-/// The corners of a cell by VTK's number of its kind, and the order of its nodes around it.
-fn corners(kind: u8) -> &'static [usize] {
-    match kind {
-        5 => &[0, 1, 2],
-        9 => &[0, 1, 2, 3],
-        22 => &[0, 3, 1, 4, 2, 5],
-        23 | 28 => &[0, 4, 1, 5, 2, 6, 3, 7],
-        70 => &[0, 4, 5, 1, 6, 7, 2, 9, 8, 3, 11, 10],
-        _ => &[],
-    }
-}
-
-/// The regions of the cells of a grid.
-fn regions(grid: &Grid) -> &[u16] {
-    match grid.cell_data.iter().find(|a| a.name.starts_with("region ")) {
-        Some(Array { data: Data::U16(regions), .. }) => regions,
-        _ => &[],
-    }
-}
-
-/// The cells of a grid with their nodes, kinds and regions.
-fn cells(grid: &Grid) -> impl Iterator<Item = (&[i64], u8, u16)> {
-    let begin = std::iter::once(0).chain(grid.topology.offsets.iter().copied());
-    let nodes = begin.zip(&grid.topology.offsets).map(|(a, &b)| &grid.topology.connectivity[a as usize..b as usize]);
-    nodes.zip(&grid.topology.types).zip(regions(grid)).map(|((nodes, kind), region)| (nodes, *kind, *region))
-}
-
-/// The cells of some regions as triangles, around their first corner, with values at the nodes.
-fn triangles(grid: &Grid, values: &[f64], wanted: impl Fn(u16) -> bool) -> Triangles {
-    let mut triangles = Triangles::default();
-    for (nodes, kind, region) in cells(grid).filter(|(.., region)| wanted(*region)) {
-        let order = corners(kind);
-        for pair in order.windows(2).skip(1) {
-            let corners = [nodes[order[0]], nodes[pair[0]], nodes[pair[1]]];
-            triangles.places.push(corners.map(|n| place(grid, n)));
-            triangles.values.push(corners.map(|n| values[n as usize]));
-            triangles.region.push(region);
-        }
-    }
-    triangles
-}
-
-/// The edges of the cells.
-fn cell_edges(grid: &Grid) -> Vec<[[f64; 2]; 2]> {
-    let mut ends = Vec::new();
-    for (nodes, kind, _) in cells(grid) {
-        let order = corners(kind);
-        for (k, &i) in order.iter().enumerate() {
-            let (a, b) = (nodes[i], nodes[order[(k + 1) % order.len()]]);
-            ends.push([a.min(b), a.max(b)]);
-        }
-    }
-    ends.sort_unstable();
-    ends.dedup();
-    ends.into_iter().map(|ends| ends.map(|n| place(grid, n))).collect()
 }
 
 #[cfg(test)]

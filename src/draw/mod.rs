@@ -120,8 +120,18 @@ impl<B: DrawingBackend> Canvas<B> {
     /// # Errors
     /// What cannot be drawn.
     pub fn line(&self, through: &[[f64; 2]], colour: RGBColor, width: f64) -> Drawn {
-        let path: Vec<_> = through.iter().map(|&place| self.place(place)).collect();
-        self.area.draw(&PathElement::new(path, self.pen(colour, width))).map_err(|e| e.to_string())
+        let mut path: Vec<_> = through.iter().map(|&place| self.place(place)).collect();
+        path.dedup();
+        let pen = self.pen(colour, width);
+        let mut begin = 0;
+        for i in 1..path.len().saturating_sub(1) {
+            if self.unit == f64::from(PIXELS) && turns_back(&path[i - 1..=i + 1]) {
+                let part = path[begin..=i].to_vec();
+                self.area.draw(&PathElement::new(part, pen)).map_err(|e| e.to_string())?;
+                begin = i;
+            }
+        }
+        self.area.draw(&PathElement::new(path.split_off(begin), pen)).map_err(|e| e.to_string())
     }
 
     /// A filled polygon.
@@ -152,19 +162,58 @@ impl<B: DrawingBackend> Canvas<B> {
         self.area.draw_text(&crate::error::plain(text), &style, self.place(place)).map_err(|e| e.to_string())
     }
 
-    /// How wide a text is (points).
-    pub fn width(&self, text: &str, how: Text) -> f64 {
-        let size = self.area.estimate_text_size(text, &self.style(Text { upwards: false, ..how }));
-        size.map_or(0.0, |(width, _)| f64::from(width) / self.unit)
+    /// Text at a place that is made smaller where it is longer than the `room` (points).
+    ///
+    /// # Errors
+    /// What cannot be drawn.
+    pub fn fitted(&self, text: &str, place: [f64; 2], how: Text, room: f64) -> Drawn {
+        let share = room / width(text, how).max(f64::MIN_POSITIVE);
+        self.text(text, place, Text { size: how.size * share.min(1.0), ..how })
     }
 
     fn style(&self, how: Text) -> TextStyle<'static> {
-        let style = if how.bold { FontStyle::Bold } else { FontStyle::Normal };
         let transform = if how.upwards { FontTransform::Rotate270 } else { FontTransform::None };
-        let font = FontDesc::new(FontFamily::SansSerif, how.size * self.unit, style).transform(transform);
+        let font = font(how, self.unit).transform(transform);
         let pos = text_anchor::Pos::new(how.at.0, how.at.1);
         TextStyle { color: how.colour.to_backend_color(), ..TextStyle::from(font).pos(pos) }
     }
+}
+
+/// Whether a line turns back at the second of three pixels: there `plotters` puts a corner of its outline far beyond the line, so that it is drawn in two parts.
+fn turns_back(path: &[(i32, i32)]) -> bool {
+    let way = |i: usize| {
+        let (a, b) = (path[i], path[i + 1]);
+        [i64::from(b.0) - i64::from(a.0), i64::from(b.1) - i64::from(a.1)]
+    };
+    let ([a, b], [c, d]) = (way(0), way(1));
+    a * c + b * d < 0
+}
+
+fn font(how: Text, unit: f64) -> FontDesc<'static> {
+    let style = if how.bold { FontStyle::Bold } else { FontStyle::Normal };
+    FontDesc::new(FontFamily::SansSerif, how.size * unit, style)
+}
+
+/// How wide a text is (points).
+pub fn width(text: &str, how: Text) -> f64 {
+    load_fonts();
+    let unit = f64::from(UNITS);
+    font(how, unit).box_size(text).map_or(0.0, |(width, _)| f64::from(width) / unit)
+}
+
+/// A text in lines that are no longer than the `room` (points), as far as its words are not.
+pub fn wrapped(text: &str, how: Text, room: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if width(&format!("{line} {word}"), how) <= room => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 /// What a picture is written as.

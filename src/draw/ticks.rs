@@ -43,6 +43,28 @@ impl Ticks {
     }
 }
 
+/// Values along an axis of logarithms to the base ten, with their labels: powers of ten, and in a short range 2 and 5 times these too; in a shorter one
+/// round numbers.
+pub fn decades(range: &RangeInclusive<f64>) -> Vec<(f64, String)> {
+    /// Labels that have room.
+    const MOST: f64 = 9.0;
+    let (low, high) = (*range.start(), *range.end());
+    if high - low < 0.7 {
+        let ticks = Ticks::within(&(10f64.powf(low)..=10f64.powf(high)), 5);
+        return ticks.values.iter().filter(|v| **v > 0.0).map(|&v| (v, ticks.label(v))).collect();
+    }
+    let every = ((high - low) / MOST).ceil().max(1.0) as i32;
+    let multiples: &[f64] = if high - low < 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+    let powers = (low.floor() as i32..=high.ceil() as i32).filter(|power| power.rem_euclid(every) == 0);
+    let values = powers.flat_map(|power| multiples.iter().map(move |multiple| multiple * 10f64.powi(power)));
+    let within = |v: &f64| range.contains(&v.log10());
+    let label = |v: f64| {
+        let text = if (1e-3..1e5).contains(&v) { format!("{}", (v * 1e9).round() / 1e9) } else { format!("{v:.0e}") };
+        text.replace('-', "−")
+    };
+    values.filter(within).map(|v| (v, label(v))).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

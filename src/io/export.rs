@@ -21,21 +21,28 @@ use crate::program;
 mod contact;
 mod fields;
 mod pieces;
+pub mod plates;
+mod section;
 mod series;
 mod soil;
 mod surface;
 
+pub use section::{Section, Sheet};
 pub use series::{Series, Shown};
 
 /// The name of the stage that writes series, in its record.
 pub const STAGE: &str = "export";
 
 /// The kinds of files, each with a `.pvd`.
-const SERIES: [&str; 6] = ["points", "grid", SOIL, STRUCTURES, CONTACT, SURFACE];
+const SERIES: [&str; 7] = ["points", "grid", SOIL, STRUCTURES, CONTACT, SURFACE, PLATES];
 const SOIL: &str = "soil";
 const STRUCTURES: &str = "structures";
 const CONTACT: &str = "contact";
 const SURFACE: &str = "surface";
+const PLATES: &str = "plates";
+
+/// The table of the forces in plates.
+pub const SECTIONS: &str = "plates.csv";
 
 /// What the regions of a mesh are, by number, and what phases do with them.
 #[derive(Clone, Debug, Default)]
@@ -50,8 +57,10 @@ pub struct Regions {
     pub resets: Vec<String>,
     /// The structures that are not there in a phase, by its name.
     pub absent: BTreeMap<String, Vec<u16>>,
-    /// Whether phases remove soil.
-    pub removes: bool,
+    /// The plates, by number, with their names.
+    pub plates: Vec<(u16, String)>,
+    /// Whether phases remove or place soil.
+    pub changes: bool,
     /// The number of the material that each region has in a phase, by its name.
     pub materials: BTreeMap<String, Vec<u16>>,
 }
@@ -87,9 +96,9 @@ pub fn export(
     atomic::prepare_folder(&folder)?;
     let _in_hand = InHand(&folder);
     let note = infos.first().map(|info| note(info.origin)).unwrap_or_default();
-    (0..infos.len()).into_par_iter().try_for_each(|i| {
-        let Shown { points, grid, soil, structures, contact, surface } = series.at(i, fields)?;
-        let grids = [Some(points), Some(grid), soil, structures, contact, surface];
+    let of_frame = |i: usize| {
+        let Shown { points, grid, soil, structures, contact, surface, plates, sections } = series.at(i, fields)?;
+        let grids = [Some(points), Some(grid), soil, structures, contact, surface, plates];
         for (name, grid) in SERIES.into_iter().zip(grids) {
             let Some(grid) = grid else { continue };
             let (path, grid) = (folder.join(file_name(name, i)), Grid { note: note.clone(), ..grid });
@@ -99,9 +108,17 @@ pub fn export(
                 vtu::write(&path, &grid, encoding)?;
             }
         }
-        Ok(())
-    })?;
+        Ok(plates::rows(&series.plates, &sections, &infos[i]))
+    };
+    let rows = (0..infos.len()).into_par_iter().map(of_frame).collect::<Result<Vec<String>>>()?;
     exchange(out)?;
+    let table = out.join(SECTIONS);
+    if series.has(PLATES) {
+        let text = std::iter::once(format!("{}\n", plates::HEADING)).chain(rows).collect::<String>();
+        atomic::write(&table, |out| out.write_all(text.as_bytes()))?;
+    } else if table.exists() {
+        atomic::remove(&table)?;
+    }
     for name in SERIES {
         let path = out.join(format!("{name}.pvd"));
         if !series.has(name) {
@@ -170,9 +187,9 @@ fn exchange(out: &Path) -> Result<()> {
 /// `Input` for a link in place of the folder of the series, `Machine` when it cannot be read.
 pub fn replaced(out: &Path) -> Result<Vec<PathBuf>> {
     atomic::refuse_link(&out.join(FOLDER))?;
-    let collections = SERIES.map(|name| out.join(format!("{name}.pvd")));
+    let collections = SERIES.map(|name| out.join(format!("{name}.pvd"))).into_iter().chain([out.join(SECTIONS)]);
     let series = atomic::entries(&out.join(FOLDER))?.into_iter().filter(|path| atomic::is_named(path, is_of_series));
-    Ok(collections.into_iter().filter(|path| path.exists()).chain(series).collect())
+    Ok(collections.filter(|path| path.exists()).chain(series).collect())
 }
 
 /// Removes a series and the record of its export.
@@ -182,6 +199,7 @@ pub fn replaced(out: &Path) -> Result<Vec<PathBuf>> {
 pub fn remove(out: &Path) -> Result<()> {
     [FOLDER, NEW, OLD].iter().try_for_each(|name| atomic::clear_folder(&out.join(name), is_of_series))?;
     SERIES.iter().try_for_each(|name| atomic::remove(&out.join(format!("{name}.pvd"))))?;
+    atomic::remove(&out.join(SECTIONS))?;
     atomic::remove(&provenance::path(out, STAGE))
 }
 

@@ -101,7 +101,7 @@ pub struct History {
     log: Log,
     columns: Vec<String>,
     /// The last row; empty without one.
-    last: Vec<f64>,
+    last: Vec<Option<f64>>,
 }
 
 impl History {
@@ -130,25 +130,25 @@ impl History {
         }
         let last = text.split(|&b| b == b'\n').nth(usize::try_from(rows).unwrap_or(usize::MAX)).filter(|_| rows > 0);
         let last = String::from_utf8_lossy(last.unwrap_or_default()).into_owned();
-        let last = last.split(',').filter_map(|number| number.parse().ok()).collect();
+        let last = last.split(',').map(|number| number.parse().ok()).collect();
         Ok(Self { log: Log::resume(path, mark)?, columns: columns.to_vec(), last })
     }
 
-    /// Appends a row, one number a column.
+    /// Appends a row, a number a column, or an empty field where there is none.
     ///
     /// # Errors
     /// `Analysis` naming the column whose number is not finite, `Machine` when the row cannot be written.
-    pub fn row(&mut self, numbers: &[f64]) -> Result<()> {
+    pub fn row(&mut self, numbers: &[Option<f64>]) -> Result<()> {
         debug_assert_eq!(numbers.len(), self.columns.len());
-        if let Some(i) = numbers.iter().position(|v| !v.is_finite()) {
+        if let Some((i, Some(v))) = numbers.iter().enumerate().find(|(_, v)| v.is_some_and(|v| !v.is_finite())) {
             return Err(Error::analysis(
                 format!("{}: column `{}`", self.log.path.display(), self.columns[i]),
-                format!("the value is {}: it was not written", numbers[i]),
+                format!("the value is {v}: it was not written"),
                 "what was written before is kept; reduce the steps or refine the mesh",
             ));
         }
         // As many digits as tell the number from all others.
-        let fields: Vec<String> = numbers.iter().map(|v| format!("{v:?}")).collect();
+        let fields: Vec<String> = numbers.iter().map(|v| v.map_or_else(String::new, |v| format!("{v:?}"))).collect();
         self.log.line(&fields.join(","))?;
         self.last = numbers.to_vec();
         Ok(())
@@ -161,7 +161,7 @@ impl History {
     pub fn again(&mut self, name: &str, number: f64) -> Result<()> {
         let mut row = self.last.clone();
         match self.columns.iter().position(|column| column == name).and_then(|i| row.get_mut(i)) {
-            Some(place) => *place = number,
+            Some(place) => *place = Some(number),
             None => return Ok(()),
         }
         self.row(&row)

@@ -6,7 +6,7 @@ use crate::reading;
 use std::borrow::Cow;
 use std::path::Path;
 
-/// A column: its name and unit from the heading `head.uy [m]`, and its numbers.
+/// A column: its name and unit from the heading `head.uy [m]`, and its numbers, NaN where a field is empty.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Column {
     pub name: String,
@@ -54,6 +54,18 @@ pub(super) fn bytes(path: &Path, remedy: &str) -> Result<Vec<u8>> {
     reading::bytes(path).map_err(|e| atomic::unreadable(path, &e, remedy))
 }
 
+/// Writes a table of numbers; a field without one is empty.
+///
+/// # Errors
+/// `Machine` when the file cannot be written.
+pub fn write(path: &Path, headings: &[String], rows: &[Vec<Option<f64>>]) -> Result<()> {
+    let number = |v: &Option<f64>| v.map_or_else(String::new, |v| format!("{v:?}"));
+    atomic::write(path, |out| {
+        writeln!(out, "{}", headings.join(","))?;
+        rows.iter().try_for_each(|row| writeln!(out, "{}", row.iter().map(number).collect::<Vec<_>>().join(",")))
+    })
+}
+
 /// Columns of one length.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Table {
@@ -83,12 +95,14 @@ impl Table {
                 record.map_err(|e| wrong(e.position().map_or(0, csv::Position::line), format!("is no row: {e}")))?;
             let line = record.position().map_or(0, csv::Position::line);
             row.clear();
-            row.extend(record.iter().map_while(|field| field.parse::<f64>().ok()));
-            if row.len() != columns.len() || record.len() != columns.len() {
-                let is_last = reader_is_at_end(bytes, &record);
-                if is_last && bytes.last() != Some(&b'\n') {
-                    break;
-                }
+            let number = |field: &str| if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() };
+            row.extend(record.iter().map_while(number));
+            let is_in_hand = || bytes.last() != Some(&b'\n') && reader_is_at_end(bytes, &record);
+            let is_whole = row.len() == columns.len() && record.len() == columns.len();
+            if (!is_whole || record.iter().any(str::is_empty)) && is_in_hand() {
+                break;
+            }
+            if !is_whole {
                 let problem = match record.get(row.len()) {
                     Some(text) if row.len() < columns.len() => format!("`{}` is no number", shown(text)),
                     _ => format!("has {} numbers for {} headings", record.len(), columns.len()),

@@ -11,6 +11,7 @@
 //! models are Kirchhoff stresses: soil that is stretched by voids loses `4/3 s_u/J` of what it bears beyond its mean stress. `k` makes up for more than that, or the
 //! voids of soil in uniform tension would gather in one place. Models are those whose yield and flow do not know the mean stress.
 
+use super::model::AT;
 use super::{Elasticity, Model, Parameter, Parameters, Profile, Response, State, Variable};
 use crate::error::{Error, Result};
 use std::sync::Arc;
@@ -153,6 +154,10 @@ impl<M: Model + 'static> Model for Cavitating<M> {
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         self.model.yield_excess(y, stress, state)
+    }
+
+    fn is_at_tension_limit(&self, y: f64, stress: &[f64; 3], _state: &State) -> bool {
+        stress.iter().sum::<f64>() / 3.0 >= (1.0 - AT) * self.limit.at(y)
     }
 
     fn elasticity(&self) -> &Elasticity {

@@ -27,7 +27,8 @@ pub use cam_clay::{CamClay, Swelling};
 pub use elasticity::{Elasticity, Moduli};
 pub use linear_elastic::LinearElastic;
 pub use model::{
-    Model, Response, State, Variable, VariableKind, internal_count, is_beyond_yield, odd_poisson, on_poisson,
+    Model, Plasticity, Response, State, Variable, VariableKind, internal_count, is_beyond_yield, odd_poisson,
+    on_poisson,
 };
 pub use mohr_coulomb::{Friction, MohrCoulomb};
 pub use parameters::{Kind, Parameter, Parameters};

@@ -139,6 +139,11 @@ pub trait Model: Send + Sync {
         }
     }
 
+    /// Whether principal Cauchy stresses (kPa), in any order, are at a limit of tension at height `y` in a state; never without one.
+    fn is_at_tension_limit(&self, _y: f64, _stress: &[f64; 3], _state: &State) -> bool {
+        false
+    }
+
     /// The elastic part, which is isotropic; where that depends on the pressure, what stands for it wherever one stiffness is asked for.
     fn elasticity(&self) -> &Elasticity;
 
@@ -210,6 +215,35 @@ pub fn is_beyond_yield(model: &dyn Model, y: f64, stress: &Symmetric, state: &St
     let stress = spectral::roots(stress);
     let unit = stress.iter().fold(model.shear_strength(y, state), |most, s| most.max(s.abs()));
     model.yields() && model.yield_excess(y, &stress, state) > BEYOND * unit
+}
+
+/// How far below a limit (-), in the strength or the stress, a stress is at it: what fitted fields are off.
+pub(super) const AT: f64 = 1e-3;
+
+/// What a point does at principal stresses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plasticity {
+    Elastic,
+    /// At the yield surface.
+    Plastic,
+    /// At a limit of tension.
+    Tension,
+}
+
+impl Plasticity {
+    /// Of a Cauchy stress at height `y` (m) in a state, given the volume ratio (-).
+    pub fn of(model: &dyn Model, y: f64, stress: &Symmetric, volume_ratio: f64, state: &State) -> Self {
+        let stress = spectral::roots(stress);
+        let kirchhoff = stress.map(|s| volume_ratio * s);
+        let unit = kirchhoff.iter().fold(model.shear_strength(y, state), |most, s| most.max(s.abs()));
+        if model.is_at_tension_limit(y, &stress, state) {
+            Self::Tension
+        } else if model.yields() && model.yield_excess(y, &kirchhoff, state) >= -AT * unit {
+            Self::Plastic
+        } else {
+            Self::Elastic
+        }
+    }
 }
 
 /// Numbers that a point carries of the internal variables of a model.

@@ -4,6 +4,7 @@
 //! The return, with edges, apex and the cut-off's corners, is that of [`super::polyhedral`]; flow on the
 //! cut-off is associated. Dilation ends with the plastic volume strain that the soil may take up ([`Planes::respond_within`]).
 
+use super::model::AT;
 use super::polyhedral::Planes;
 use super::{Elasticity, Kind, Model, Parameter, Parameters, Profile, Response, State, Variable, VariableKind};
 use crate::error::{Error, Result};
@@ -220,6 +221,13 @@ impl Model for MohrCoulomb {
 
     fn yield_excess(&self, y: f64, stress: &[f64; 3], state: &State) -> f64 {
         self.planes(y, state).excess(stress)
+    }
+
+    fn is_at_tension_limit(&self, y: f64, stress: &[f64; 3], state: &State) -> bool {
+        let planes = self.planes(y, state);
+        let largest = stress.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let unit = stress.iter().fold(self.shear_strength(y, state), |most, s| most.max(s.abs()));
+        self.tension.is_some() && largest >= planes.tension - AT * unit
     }
 
     fn elasticity(&self) -> &Elasticity {

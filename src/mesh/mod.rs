@@ -11,8 +11,10 @@ pub mod gmsh;
 pub mod locate;
 pub mod msh;
 pub mod quality;
+pub mod sections;
 pub mod shape;
 pub mod side;
+pub mod strip;
 
 pub use bodies::Bodies;
 

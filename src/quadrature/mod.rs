@@ -4,7 +4,7 @@
 //! have masses of their own, which agree with them in sum.
 
 #[cfg(test)]
-mod fixture;
+pub mod fixture;
 mod resampled;
 mod surface;
 mod volumes;
@@ -93,4 +93,34 @@ pub trait Quadrature<const D: usize>: Send + Sync {
 pub trait Parting<const D: usize>: Send + Sync {
     /// Ends the surface at what is left. The points are found on the reset grid `mesh`, of whose cells some are `active`.
     fn part(&self, mesh: (&Mesh<D>, &Locator<D>), points: &Points<D>, active: &[bool], front: &mut MarkerFront);
+}
+
+/// Soil that has come into a region.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Placed<const D: usize> {
+    /// The number of the region.
+    pub region: u16,
+    /// Places (m) of its points, their volumes (m³) and their cells.
+    pub position: Vec<[f64; D]>,
+    pub volumes: Vec<f64>,
+    pub cell: Vec<u32>,
+    /// The volume (m³) of all of it, that of the region as drawn, and the part of the first that is outside that.
+    pub volume: f64,
+    pub drawn: f64,
+    pub beside: f64,
+}
+
+/// Parts (-) of a cell that are rounding.
+pub const NOWHERE: f64 = 1e-12;
+
+/// Soil that comes into regions.
+pub trait Placing<const D: usize>: Send + Sync {
+    /// The soil of each region, and the surface around it and the soil that is there. The points are found on the reset grid `mesh`, at parametric places
+    /// in its cells.
+    fn place(
+        &self,
+        mesh: (&Mesh<D>, &Locator<D>),
+        points: (&Points<D>, &[[f64; 3]]),
+        front: &mut Option<MarkerFront>,
+    ) -> Vec<Placed<D>>;
 }

@@ -41,14 +41,14 @@ impl Html {
     /// A picture drawn by the program as SVG, which has escaped its text.
     pub fn figure(svg: String, caption: &str) -> Self {
         let caption = if caption.is_empty() { Self::default() } else { Self::of("figcaption", caption) };
-        Self(format!("<figure>{svg}{}</figure>\n", caption.0))
+        Self(format!("<figure tabindex=\"0\">{svg}{}</figure>\n", caption.0))
     }
 
     /// A picture as PNG, within the page.
     pub fn image(png: &[u8], width: u32, caption: &str) -> Self {
         let (data, caption) = (BASE64_STANDARD.encode(png), Self::text(caption).0);
         Self(format!(
-            "<figure><img width=\"{width}\" alt=\"{caption}\" src=\"data:image/png;base64,{data}\"/><figcaption>{caption}</figcaption></figure>\n"
+            "<figure tabindex=\"0\"><img width=\"{width}\" alt=\"{caption}\" src=\"data:image/png;base64,{data}\"/><figcaption>{caption}</figcaption></figure>\n"
         ))
     }
 

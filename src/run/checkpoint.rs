@@ -140,6 +140,7 @@ fn pass<const D: usize>(archive: &mut Archive, state: &State<D>) -> Result<State
         fem_parametric: archive.list("state.fem_parametric", &s.fem_parametric)?,
         nodes: archive.list("state.coordinates", &s.nodes)?,
         multipliers: pass_multipliers(archive, &s.multipliers)?,
+        free_lengths: archive.list("state.free_lengths", &s.free_lengths)?,
         moving: moving != 0,
         switched_to_dynamics: switched_to_dynamics != 0,
         peak,

@@ -1,6 +1,8 @@
 //! How phases end: at their time, before it because what they look for is found, or because the analysis cannot go on.
 
-use super::record::{self, Quantity, Watch};
+use super::measured::Soil;
+use super::values::value;
+use super::watch::{Quantity, Watch, column_name};
 use crate::error::{Error, Kind, Result};
 use crate::gravity::Gravity;
 use crate::kinematics::Kinematics;
@@ -81,7 +83,7 @@ pub fn at_first(phase: &Phase) -> String {
 }
 
 /// Why a phase ends with the step of the `report`, if one of its conditions holds.
-pub fn met<const D: usize>(
+pub fn met<const D: usize, K: Kinematics<D>>(
     until: &[Until],
     watches: &[Watch],
     scene: &Scene<D>,
@@ -89,14 +91,14 @@ pub fn met<const D: usize>(
     report: &Report<D>,
 ) -> Option<String> {
     let name = &scene.phases[state.phase].name;
-    let held = state.ramp.share(state.phase_time);
+    let held = if state.ramp.is_kept() { 0.0 } else { state.ramp.share(state.phase_time) };
     let note = until.iter().find_map(|condition| match condition {
         Until::Reached { of, quantity, bound, below } => {
             // An entry may be several watches.
             let watch = watches.iter().find(|watch| watch.name == *of && watch.quantities.contains(quantity))?;
-            let value = record::value(&watch.on, *quantity, scene, state, report);
+            let value = value(&watch.on, *quantity, &Soil::<D, K>::new(scene, state), report)?;
             let reached = if *below { value <= *bound } else { value >= *bound };
-            reached.then(|| format!("phase `{name}` ends: {} is {value:.6e}", record::column_name(watch, *quantity)))
+            reached.then(|| format!("phase `{name}` ends: {} is {value:.6e}", column_name(watch, *quantity)))
         }
         Until::Equilibrium(part) => {
             let kinetic = report.motion.kinetic;
@@ -247,7 +249,7 @@ fn loads_reached<const D: usize>(scene: &Scene<D>, phase: &Phase, state: &State<
     let reduction = phase.reduction.iter().filter(|value| varies(value));
     let reduction = reduction.map(|value| format!("strengths divided by {:.4} of {:.4}", value.at(now), value.at(end)));
     let held = state.ramp.share(now);
-    let released = (held > 0.0 && now > state.ramp.from)
+    let released = (held > 0.0 && !state.ramp.is_kept() && now > state.ramp.from)
         .then(|| format!("{:.1} % of what was out of balance {}", 100.0 * (1.0 - held), since(state)));
     gravity.chain(moved).chain(reduction).chain(released).collect()
 }

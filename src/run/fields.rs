@@ -4,7 +4,7 @@ use super::internal_variables::InternalVariable;
 use crate::io::columns::{padded, to_array};
 use crate::io::container::{Array, Data};
 use crate::io::frame::Column;
-use crate::material::Model;
+use crate::material::{Model, Plasticity};
 use crate::points::Points;
 use crate::term::{MixedPressure, excess_pressure};
 use std::sync::Arc;
@@ -16,6 +16,8 @@ pub enum Field {
     Displacement,
     /// Velocity (m/s); zero without inertia.
     Velocity,
+    /// Hencky strain (-) since seeding.
+    Strain,
     /// Deformation gradient (-) since seeding, row by row.
     DeformationGradient,
     /// A column of the points by its name, as it is; nothing where that is not one of floating-point numbers.
@@ -25,6 +27,8 @@ pub enum Field {
     PorePressure(Vec<Option<MixedPressure>>),
     /// Shear strength (kPa) in the state of a point, given the models by number of the material; 0 where the model does not yield.
     ShearStrength(Vec<Option<Arc<dyn Model>>>),
+    /// Whether a point is at yield (1), at a limit of tension (2) or neither (0), given the models by number of the material.
+    PlasticPoints(Vec<Option<Arc<dyn Model>>>),
     Internal(InternalVariable),
 }
 
@@ -41,6 +45,7 @@ impl Field {
                 Column::new("velocity", "m/s", 3, vec![0.0; 3 * points.len()])
             }
             Self::Velocity => Column::new("velocity", "m/s", 3, padded(&points.velocity)),
+            Self::Strain => Column::new("strain", "-", 6, all.flat_map(|p| points.strain(p)).collect()),
             Self::DeformationGradient => {
                 let rows = points.deformation.iter().flat_map(|f| f.transpose().data.0.into_iter().flatten());
                 Column::new("deformation_gradient", "-", 9, rows.collect())
@@ -59,6 +64,18 @@ impl Field {
                     strength.is_finite().then_some(strength)
                 };
                 Column::new("shear_strength", "kPa", 1, all.map(|p| of(p).unwrap_or(0.0)).collect())
+            }
+            Self::PlasticPoints(models) => {
+                let of = |p: usize| {
+                    let model = points.by_material(p, models)?.as_ref();
+                    let (y, ratio) = (points.seeded_height(p), points.deformation[p].determinant());
+                    Some(match Plasticity::of(model, y, &points.stress[p], ratio, &points.state(p, 0.0)) {
+                        Plasticity::Elastic => 0.0,
+                        Plasticity::Plastic => 1.0,
+                        Plasticity::Tension => 2.0,
+                    })
+                };
+                Column::new("plastic_points", "-", 1, all.map(|p| of(p).unwrap_or(0.0)).collect())
             }
             Self::Internal(variable) => variable.column(points),
         })

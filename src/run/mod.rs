@@ -21,28 +21,32 @@ pub mod fields;
 mod foreign;
 mod internal_variables;
 mod jump;
+mod measured;
 mod outputs;
 mod outside;
 mod record;
 mod surface;
 mod swelling;
+mod values;
 mod voids;
 mod warning;
+mod watch;
+mod written;
 
 pub use ending::Until;
 pub use internal_variables::InternalVariable;
 pub use outputs::Outputs;
-pub use record::{Quantity, Watch, WatchedOn};
+pub use record::{Force, Side};
 pub use surface::Acting;
 pub use warning::WARNING;
+pub use watch::{Place, Quantity, Watch, WatchedOn};
 
 use crate::error::{Error, Kind, Result};
 use crate::io::background::Background;
 use crate::io::checkpoint::Checkpoints;
-use crate::io::container::Store;
 use crate::io::frame::{self, Frame};
 use crate::io::hash;
-use crate::io::history::{History, Log, Mark};
+use crate::io::history::{History, Log};
 use crate::io::phase_state;
 use crate::io::run_folder::RunFolder;
 use crate::kinematics::Kinematics;
@@ -54,6 +58,7 @@ use foreign::{AFRESH, foreign};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use warning::Told;
+use written::Written;
 
 /// Jobs that may wait for the writer: the frame and the checkpoint of a step.
 const QUEUE: usize = 2;
@@ -223,16 +228,17 @@ pub fn run<const D: usize, K: Kinematics<D>>(
                 tell(state, Some(&format!("step halved: {reason}")));
             }
             let written = timed(Activity::Output, || {
-                files.step(scene, state, &report)?;
+                let empty = files.step::<K>(scene, state, &report)?;
                 if let Some(warning) = jump::found(scene, state) {
                     tell(state, Some(&warning));
                     files.log.line(&warning)?;
                 }
-                let met = ending::met(until, &outputs.watches, scene, state, &report)
+                let met = ending::met::<D, K>(until, &outputs.watches, scene, state, &report)
                     .or_else(|| stays.then(|| ending::at_first(phase)))
                     .or_else(|| still.then(|| ending::at_rest(phase, &report)));
                 let ends = met.is_some() || controller.next_stop(state.phase_time).is_none();
-                let mut warnings = bypassed.found(scene, state, &report, outputs.surface.as_ref());
+                let mut warnings = empty;
+                warnings.extend(bypassed.found(scene, state, &report, outputs.surface.as_ref()));
                 warnings.extend(swelling::found(scene, state));
                 warnings.extend(outside::found(scene, state));
                 warnings.extend(energy::found(scene, state, &report, ends));
@@ -282,33 +288,6 @@ pub fn run<const D: usize, K: Kinematics<D>>(
     }
     files.close()?;
     Ok(Ended::Done)
-}
-
-/// What a checkpoint knows of the other files of its run.
-struct Written {
-    history: Mark,
-    energy: Mark,
-    log: Mark,
-    /// The hashes of the frames.
-    frames: Vec<u64>,
-}
-
-impl Written {
-    fn put(&self, store: &mut Store) {
-        for (name, mark) in [("files.history", self.history), ("files.energy", self.energy), ("files.log", self.log)] {
-            store.put(name, 2, vec![mark.lines, mark.hash]);
-        }
-        store.put("files.frames", 1, self.frames.clone());
-    }
-
-    fn take(store: &mut Store) -> Result<Self> {
-        let mut mark = |name: &str| match store.take::<u64>(name, 2)?[..] {
-            [lines, hash] => Ok(Mark { lines, hash }),
-            _ => Err(foreign(name)),
-        };
-        let [history, energy, log] = ["files.history", "files.energy", "files.log"].map(&mut mark);
-        Ok(Self { history: history?, energy: energy?, log: log?, frames: store.take("files.frames", 1)? })
-    }
 }
 
 /// The open files of a run.
@@ -362,13 +341,21 @@ impl<'a, const D: usize> Files<'a, D> {
 
     /// Notes a converged step, once the checkpoint of the step before is written: a kill loses the step in hand,
     /// and the one before it only in the moment in which its checkpoint is being written.
-    fn step(&mut self, scene: &Scene<D>, state: &State<D>, report: &crate::step::Report<D>) -> Result<()> {
+    /// Returns the warnings of what has no value.
+    fn step<K: Kinematics<D>>(
+        &mut self,
+        scene: &Scene<D>,
+        state: &State<D>,
+        report: &crate::step::Report<D>,
+    ) -> Result<Vec<String>> {
         self.writer.flush()?;
         for line in record::log_lines(scene, state, report) {
             self.log.line(&line)?;
         }
         self.energy.row(&record::energy_row(state))?;
-        self.history.row(&record::row(scene, &self.outputs.watches, state, report))
+        let row = record::row::<D, K>(scene, &self.outputs.watches, state, report);
+        self.history.row(&row)?;
+        Ok(measured::found(&self.outputs.watches, &row, state.time))
     }
 
     /// Ends a phase before its time, with the reason, in the last converged state.

@@ -2,8 +2,8 @@
 
 use super::ending::Until;
 use super::fields::Field;
-use super::record::Watch;
 use super::surface::Acting;
+use super::watch::Watch;
 use crate::io::phase_state::End;
 use crate::io::provenance::Origin;
 use crate::io::run_folder::RunFolder;

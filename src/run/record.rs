@@ -1,59 +1,25 @@
 //! What a run writes down: frames, rows of the history, lines of the log.
 
+pub mod plates;
+pub mod sides;
+
+pub use plates::Force;
+pub use sides::Side;
+
 use super::accepted;
 use super::boundary;
 use super::fields::Field;
+use super::measured::Soil;
 use super::surface::{self, Acting};
+use super::values::value;
+use super::watch::{Watch, column_name};
 use crate::io::columns::padded;
 use crate::io::frame::{CELL, Column, Frame, Part, UNCOUNTED, VOLUME, triples};
 use crate::io::provenance::Origin;
+use crate::kinematics::Kinematics;
 use crate::points::Points;
 use crate::quadrature::Count;
-use crate::rigid::Body;
-use crate::step::{ITEMS, Report, Restore, Scene, Side, State};
-
-/// A quantity of the history, with its component.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// Displacement (m), the mean over what is watched.
-    Displacement(usize),
-    /// Velocity (m/s), the mean over what is watched.
-    Velocity(usize),
-    /// Force of the supports and prescribed displacements on the nodes (kN), the sum.
-    Reaction(usize),
-    /// Force of what a structure touches on it (kN), the sum.
-    Contact(usize),
-    /// Rotation of a rigid body (rad), and the moment (kN m) about its centroid of what holds it.
-    Rotation,
-    ReactionMoment,
-    /// Moment (kN m) of what a structure touches on it about the centroid that it has now, in the plane, anticlockwise.
-    ContactMoment,
-    /// Excess pore pressure (kPa), the mean over what is watched.
-    PorePressure,
-}
-
-/// What is watched.
-#[derive(Clone, Debug, PartialEq)]
-pub enum WatchedOn {
-    /// Nodes of the grid: a curve or a point.
-    Nodes(Vec<u32>),
-    /// Nodes of a rigid body, and its number in the scene.
-    Side(Vec<u32>, usize),
-    /// A rigid body, by its number in the scene.
-    Body(usize),
-    /// The points of a region of the mesh.
-    Region(u16),
-}
-
-/// An entry of the history.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Watch {
-    pub name: String,
-    pub on: WatchedOn,
-    pub quantities: Vec<Quantity>,
-}
-
-const AXES: [&str; 3] = ["x", "y", "z"];
+use crate::step::{self, ITEMS, Report, Restore, Scene, State};
 
 /// The column of the reduction of strength at which the last search found no equilibrium.
 pub const NO_EQUILIBRIUM: &str = "no_equilibrium_at [-]";
@@ -78,20 +44,6 @@ pub fn columns<const D: usize>(scene: &Scene<D>, watches: &[Watch]) -> Vec<Strin
     columns
 }
 
-/// The name of a column.
-pub fn column_name(watch: &Watch, quantity: Quantity) -> String {
-    match quantity {
-        Quantity::Displacement(d) => format!("{}.u{} [m]", watch.name, AXES[d]),
-        Quantity::Velocity(d) => format!("{}.v{} [m/s]", watch.name, AXES[d]),
-        Quantity::Reaction(d) => format!("{}.reaction_{} [kN]", watch.name, AXES[d]),
-        Quantity::Contact(d) => format!("{}.contact_{} [kN]", watch.name, AXES[d]),
-        Quantity::Rotation => format!("{}.rotation [rad]", watch.name),
-        Quantity::ReactionMoment => format!("{}.reaction_moment [kN m]", watch.name),
-        Quantity::ContactMoment => format!("{}.contact_moment [kN m]", watch.name),
-        Quantity::PorePressure => format!("{}.pore_pressure [kPa]", watch.name),
-    }
-}
-
 /// Whether a phase reduces strengths.
 fn reduces<const D: usize>(scene: &Scene<D>) -> bool {
     scene.phases.iter().any(|phase| phase.reduction.is_some())
@@ -102,17 +54,23 @@ fn searches<const D: usize>(scene: &Scene<D>) -> bool {
     scene.phases.iter().any(|phase| phase.search.is_some())
 }
 
-/// A row of the history.
-pub fn row<const D: usize>(scene: &Scene<D>, watches: &[Watch], state: &State<D>, report: &Report<D>) -> Vec<f64> {
-    let mut row = vec![state.time];
+/// A row of the history; `None` where there is no soil to have a value.
+pub fn row<const D: usize, K: Kinematics<D>>(
+    scene: &Scene<D>,
+    watches: &[Watch],
+    state: &State<D>,
+    report: &Report<D>,
+) -> Vec<Option<f64>> {
+    let mut row = vec![Some(state.time)];
     if reduces(scene) {
-        row.extend([scene.phases[state.phase].reduction_at(state.phase_time), 0.0]);
+        row.extend([Some(scene.phases[state.phase].reduction_at(state.phase_time)), Some(0.0)]);
     }
     if searches(scene) {
-        row.push(state.search_curve.last().map_or(0.0, |[_, moved]| *moved));
+        row.push(Some(state.search_curve.last().map_or(0.0, |[_, moved]| *moved)));
     }
+    let soil = Soil::<D, K>::new(scene, state);
     for watch in watches {
-        row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, scene, state, report)));
+        row.extend(watch.quantities.iter().map(|quantity| value(&watch.on, *quantity, &soil, report)));
     }
     row
 }
@@ -124,103 +82,8 @@ pub fn energy_columns() -> Vec<String> {
 }
 
 /// A row of the balance of energy.
-pub fn energy_row<const D: usize>(state: &State<D>) -> Vec<f64> {
-    std::iter::once(state.time).chain(state.energies.unwrap_or_default().0).collect()
-}
-
-/// The value of a quantity of what is watched, as the converged state of a step and its report have it.
-pub fn value<const D: usize>(
-    on: &WatchedOn,
-    quantity: Quantity,
-    scene: &Scene<D>,
-    state: &State<D>,
-    report: &Report<D>,
-) -> f64 {
-    let contact = |region: u16| report.contacts.iter().map(move |c| c.on(region));
-    let travel = |n: usize, d: usize| state.travel[n][d] - state.uncounted.get(n).map_or(0.0, |u| u[d]);
-    match (on, quantity) {
-        (WatchedOn::Nodes(nodes) | WatchedOn::Side(nodes, _), Quantity::Displacement(d)) => {
-            mean(nodes.iter().map(|&n| travel(n as usize, d)))
-        }
-        (WatchedOn::Nodes(nodes) | WatchedOn::Side(nodes, _), Quantity::Velocity(d)) => {
-            mean(nodes.iter().map(|&n| state.velocity.get(n as usize).map_or(0.0, |v| v[d])))
-        }
-        (WatchedOn::Nodes(nodes), Quantity::Reaction(d)) => nodes.iter().map(|&n| report.reaction[n as usize][d]).sum(),
-        (WatchedOn::Side(_, body), quantity @ Quantity::Reaction(_)) => {
-            value(&WatchedOn::Body(*body), quantity, scene, state, report)
-        }
-        (WatchedOn::Body(number), quantity) => {
-            let body = &scene.bodies[*number];
-            let Body { region, dofs, .. } = body;
-            let motion = || dofs.motion::<D>(|n| std::array::from_fn(|d| travel(n as usize, d)));
-            let reaction = || dofs.load(|n| report.reaction[n as usize]);
-            match quantity {
-                Quantity::Displacement(d) => motion().0[d],
-                Quantity::Velocity(d) => state.velocity.get(dofs.translation as usize).map_or(0.0, |v| v[d]),
-                Quantity::Reaction(d) => reaction().0[d],
-                Quantity::Contact(d) => contact(*region).map(|(force, _)| force[d]).sum(),
-                Quantity::PorePressure => 0.0,
-                Quantity::Rotation => motion().1,
-                Quantity::ReactionMoment => reaction().1,
-                Quantity::ContactMoment => {
-                    let centre = body.centre_after(&state.travel);
-                    dofs.rotation.map_or(0.0, |_| moment_about(&[centre[0], centre[1]], contact(*region)))
-                }
-            }
-        }
-        (WatchedOn::Nodes(nodes), Quantity::PorePressure) => {
-            let [places, _] = scene.places();
-            let value = |n: u32| state.pressure.get(places.pore(n)).filter(|_| scene.water.is_some());
-            mean(nodes.iter().map(|&n| value(n).copied().unwrap_or(0.0)))
-        }
-        (WatchedOn::Region(region), Quantity::PorePressure) => {
-            mean_over(state, *region, |points, p| points.pore_pressure.get(p).copied().unwrap_or(0.0))
-        }
-        (WatchedOn::Region(region), Quantity::Displacement(d)) => {
-            mean_over(state, *region, |points, p| points.displacement(p)[d])
-        }
-        (WatchedOn::Region(region), Quantity::Velocity(d)) => {
-            mean_over(state, *region, |points, p| points.velocity.get(p).map_or(0.0, |v| v[d]))
-        }
-        (WatchedOn::Region(region), Quantity::Contact(d)) => contact(*region).map(|(force, _)| force[d]).sum(),
-        (WatchedOn::Region(region), Quantity::ContactMoment) => {
-            moment_about(&centroid(state, *region), contact(*region))
-        }
-        // A region has no supports of its own, a curve no contact; only rigid bodies turn.
-        (WatchedOn::Region(_) | WatchedOn::Nodes(_) | WatchedOn::Side(..), _) => 0.0,
-    }
-}
-
-/// The moment (kN m) about `centre` of forces with their moments about the origin.
-fn moment_about<const D: usize>(centre: &[f64; 2], forces: impl Iterator<Item = ([f64; D], f64)>) -> f64 {
-    const { assert!(D == 2, "moments are numbers in the plane only") };
-    forces.map(|(force, moment)| moment - (centre[0] * force[1] - centre[1] * force[0])).sum()
-}
-
-/// The centroid (m) of a region where it is now, in the plane, by the volumes of its points.
-fn centroid<const D: usize>(state: &State<D>, region: u16) -> [f64; 2] {
-    const { assert!(D == 2, "centroids are those of moments in the plane") };
-    [0, 1].map(|d| mean_over(state, region, |points, p| points.position[p][d]))
-}
-
-/// The points of a region, of whatever kind.
-fn members<const D: usize>(state: &State<D>, region: u16) -> impl Iterator<Item = (&Points<D>, usize)> {
-    let all = [&state.points, &state.fem].into_iter().flat_map(|points| (0..points.len()).map(move |p| (points, p)));
-    all.filter(move |(points, p)| points.region[*p] == region)
-}
-
-fn mean(values: impl Iterator<Item = f64>) -> f64 {
-    let (count, sum) = values.fold((0usize, 0.0), |(n, s), v| (n + 1, s + v));
-    if count > 0 { sum / count as f64 } else { 0.0 }
-}
-
-/// The mean of a value over the points of a region, by the volume that each had when seeded: points that are split and merged leave it.
-fn mean_over<const D: usize>(state: &State<D>, region: u16, value: impl Fn(&Points<D>, usize) -> f64) -> f64 {
-    let (volume, sum) = members(state, region).fold((0.0, 0.0), |(volume, sum), (points, p)| {
-        let v = points.initial_volume[p];
-        (volume + v, sum + v * value(points, p))
-    });
-    if volume > 0.0 { sum / volume } else { 0.0 }
+pub fn energy_row<const D: usize>(state: &State<D>) -> Vec<Option<f64>> {
+    std::iter::once(state.time).chain(state.energies.unwrap_or_default().0).map(Some).collect()
 }
 
 /// The state at one moment.
@@ -321,7 +184,7 @@ pub fn log_lines<const D: usize>(scene: &Scene<D>, state: &State<D>, report: &Re
     }
     if let Some(energies) = &state.energies {
         line.push_str(" balance");
-        for side in [Side::Supplied, Side::Held, Side::Dissipated, Side::Numerical] {
+        for side in [step::Side::Supplied, step::Side::Held, step::Side::Dissipated, step::Side::Numerical] {
             line.push_str(&format!(" {} {:.9e}", side.name(), energies.sum(side)));
         }
     }

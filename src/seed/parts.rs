@@ -6,6 +6,9 @@ use crate::mesh::shape::{CellKind, rule};
 /// quadrilateral, 15 in a tetrahedron and 27 in a hexahedron. Finite elements have them.
 pub const QUADRATURE: u32 = 0;
 
+/// The same for 2 × 2 points of a quadrilateral with eight nodes: a strip of such bends as a beam does.
+pub const SECTIONS: u32 = u32::MAX;
+
 /// A part of the parametric domain with its point.
 pub struct Part {
     pub point: [f64; 3],
@@ -37,6 +40,7 @@ pub fn parts(kind: CellKind, count: u32) -> Option<Vec<Part>> {
     };
     match (kind.dimension(), kind.is_simplex(), count) {
         (2 | 3, _, QUADRATURE) => gauss(4),
+        (2, false, SECTIONS) => gauss(3),
         (2, true, 4 | 9 | 16 | 25) => Some(sub_triangles(kind, count.isqrt())),
         (2, true, 3) => gauss(2),
         (2, true, 6) => gauss(4),

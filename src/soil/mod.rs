@@ -8,10 +8,12 @@
 //! them, along which the cells are cut. What structures stand in is cut out exactly. Regions are parted in the same way, and a field
 //! is recovered from the points of each region alone (`recover`).
 
+mod filling;
 mod fullness;
 mod origin;
 mod parting;
 mod polygon;
+mod probe;
 mod recover;
 mod structures;
 #[cfg(test)]
@@ -33,7 +35,9 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::iter::once;
 
+pub use filling::{Fill, Filling};
 pub use parting::Parting;
+pub use probe::{Probe, Weights};
 pub use recover::Values;
 pub use structures::Structures;
 
@@ -100,6 +104,11 @@ impl Soil {
         regions.for_each(|region| there[region as usize] = true);
         let goes = (0..mesh.cells.len()).any(|c| self.origin.is_seeded(c) && !there[mesh.cells.region[c] as usize]);
         goes.then(|| Self::new(mesh.clone(), &there))
+    }
+
+    /// The region in which a point was seeded at `origin` (m).
+    pub fn seeded_region(&self, origin: &[f64; 2]) -> Option<u16> {
+        self.origin.seeded_cell(origin).map(|(c, _)| self.origin.mesh.cells.region[c as usize])
     }
 
     /// Where points with these displacements (m) were, when these were counted from a frame whose points were at `places`

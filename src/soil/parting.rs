@@ -78,10 +78,6 @@ impl<K: Kinematics<2>> quadrature::Parting<2> for Parting<K> {
             distance.level_set.iter().zip(&remains).map(|(soil, remains)| soil.min(*remains)).collect();
         let nothing = |host: u32, _: &[f64; 2]| Behind { region: NO_REGION, host };
         let boundary = ActiveBoundary::of(mesh, &geometry, &level, active, nothing);
-        *front = MarkerFront { position: Vec::new(), first: vec![0] };
-        for l in 0..boundary.loops() {
-            front.position.extend(boundary.corners(mesh, &mesh.nodes, l));
-            front.first.push(front.position.len() as u32);
-        }
+        *front = boundary.front(mesh);
     }
 }

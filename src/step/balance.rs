@@ -20,6 +20,10 @@ pub fn static_force<const D: usize>(problem: &Problem<D>, grid: &mut Grid<D>) ->
     timed(Activity::Assembly, || {
         add_terms(problem, grid, &at_start(problem), false, &|role| role != Role::Inertia, (&mut own, &[]), &mut sum)
     })?;
+    if problem.state.ramp.is_kept() {
+        let held = grid.dofs.on_blocks(&problem.state.ramp.force);
+        sum.force.iter_mut().zip(held.iter().flatten()).for_each(|(f, held)| *f += held);
+    }
     Ok(sum)
 }
 
@@ -49,7 +53,15 @@ pub fn works_at_start<const D: usize>(
 ) -> Result<Works> {
     let problem = Problem::at_rest(scene, state);
     let (mut own, mut sum) = (Vec::new(), Evaluation::default());
-    add_terms(&problem, grid, &at_start(&problem), false, &|role| role == Role::External, (&mut own, way), &mut sum)?;
+    add_terms(
+        &problem,
+        grid,
+        &at_start(&problem),
+        false,
+        &|role| matches!(role, Role::External | Role::Restoring),
+        (&mut own, way),
+        &mut sum,
+    )?;
     Ok(sum.work)
 }
 
@@ -145,25 +157,27 @@ pub fn evaluate<const D: usize>(
         state.force.iter_mut().zip(problem.unresolved).for_each(|(f, unresolved)| *f += unresolved);
         state.work.add(Source::Inertia, problem.unresolved, way);
     }
-    if !dynamic {
-        hold_back(problem, grid, &mut state.force);
+    let held = held_back(problem, grid);
+    state.force.iter_mut().zip(&held).for_each(|(f, held)| *f += held);
+    if dynamic && !held.is_empty() {
+        state.work.add(Source::Load, &held, way);
+        for (block, _) in grid.dofs.forces() {
+            state.applied.iter_mut().zip(&held[D * block..]).for_each(|(applied, f)| *applied -= f);
+        }
     }
     result
 }
 
-/// Adds the part of the unbalanced force that is still held ([`super::UnbalancedRamp`]).
-fn hold_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>, force: &mut [f64]) {
+/// The part of the unbalanced force that is still held ([`super::UnbalancedRamp`]; kN, by equation), zero where the displacement is given; empty of none.
+fn held_back<const D: usize>(problem: &Problem<D>, grid: &Grid<D>) -> Vec<f64> {
     let ramp = &problem.state.ramp;
     let share = ramp.share(problem.to);
     if share == 0.0 {
-        return;
+        return Vec::new();
     }
     let held = grid.dofs.on_blocks(&ramp.force);
-    for ((f, held), given) in force.iter_mut().zip(held.iter().flatten()).zip(problem.given) {
-        if given.is_none() {
-            *f += share * held;
-        }
-    }
+    let force = held.iter().flatten().zip(problem.given);
+    force.map(|(held, given)| if given.is_none() { share * held } else { 0.0 }).collect()
 }
 
 /// Adds up the terms of the wanted roles, and their work along `way` (m), one entry an equation.
@@ -208,7 +222,7 @@ fn add_terms<const D: usize>(
         for (f, o) in sum.force.iter_mut().zip(own.iter()) {
             *f += o;
         }
-        if term.role() == Role::External {
+        if matches!(term.role(), Role::External | Role::Restoring) {
             for (block, _) in grid.dofs.forces() {
                 for (applied, f) in sum.applied.iter_mut().zip(&own[D * block..]) {
                     *applied -= f;

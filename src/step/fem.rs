@@ -12,6 +12,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::points::Points;
 use crate::system::Connectivity;
+use crate::term::Bar;
 
 /// The finite elements, and what their points see of them.
 pub struct Elements<const D: usize> {
@@ -22,6 +23,8 @@ pub struct Elements<const D: usize> {
     pub cells: Vec<u32>,
     /// The coupling of each cell; `u32::MAX` for those of rigid bodies.
     pub coupling: Vec<u32>,
+    /// The coupling of each bar.
+    pub bars: Vec<u32>,
     /// The number of points that are not of rigid bodies: the first ones.
     points: usize,
 }
@@ -36,6 +39,7 @@ impl<const D: usize> Elements<D> {
             interpolation: Interpolation::default(),
             cells,
             coupling: Vec::new(),
+            bars: Vec::new(),
             points,
         };
         elements.place::<K>(state);
@@ -56,13 +60,14 @@ impl<const D: usize> Elements<D> {
         self.interpolation.weigh(&state.fem.initial_volume[..count]);
     }
 
-    /// Appends a coupling for each cell that deforms.
-    pub fn couple(&mut self, fem: &Fem<D>, dofs: &DofMap<D>, connectivity: &mut Connectivity) {
+    /// Appends a coupling for each cell that deforms, and each bar.
+    pub fn couple(&mut self, (fem, bars): (&Fem<D>, &[Bar<D>]), dofs: &DofMap<D>, connectivity: &mut Connectivity) {
         let cells = &self.mesh.cells;
         self.coupling = vec![u32::MAX; cells.len()];
         for c in fem.deforming() {
             self.coupling[c] = dofs.couple(cells.nodes(c).iter().copied(), connectivity);
         }
+        self.bars = bars.iter().map(|bar| dofs.couple(bar.nodes(), connectivity)).collect();
     }
 }
 

@@ -134,7 +134,7 @@ impl<const D: usize> Grid<D> {
         }
         let mut elements = scene.fem.as_ref().map(|fem| Elements::new::<K>(fem, state));
         if let (Some(elements), Some(fem)) = (&mut elements, &scene.fem) {
-            elements.couple(fem, &dofs, &mut connectivity);
+            elements.couple((fem, &scene.bars), &dofs, &mut connectivity);
         }
         let body_coupling = dofs.bodies.iter().map(|body| dofs.couple(body.numbers(), &mut connectivity)).collect();
         let cells_only = connectivity.clone();
@@ -276,6 +276,8 @@ impl<const D: usize> Grid<D> {
             block: &self.dofs.block,
             linear_constraints: self.dofs.constraints.as_ref(),
             bodies: &self.body_coupling,
+            bars: self.elements.as_ref().map_or(&[], |elements| &elements.bars),
+            free_lengths: &state.free_lengths,
         }
     }
 

@@ -30,6 +30,7 @@ mod newton;
 mod nodal_fit;
 mod obstacles;
 pub mod overlap;
+mod placement;
 mod pore_pressure;
 mod predictor;
 mod pressure;
@@ -62,7 +63,8 @@ pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
 pub use scene::{
-    FARTHEST, Fem, Fixed, Numerics, Phase, Prescribed, Removal, Restore, Scene, Search, StepSize, Stop, Water,
+    FARTHEST, Fem, Fixed, Numerics, Phase, Placement, Prescribed, Removal, Restore, Scene, Search, Soil, StepSize,
+    Stop, Water,
 };
 pub use search::kink;
 pub use state::{Span, State};
@@ -118,16 +120,29 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         Ok(Self { scene, state, grid, kinematics: PhantomData })
     }
 
-    /// Begins a phase: removes the soil that goes. Returns notes on it: materials that change in it, prescribed displacements and loads that act on no
-    /// material.
+    /// Begins a phase: removes the soil that goes and places that which comes. Returns notes on it: the soil that comes, materials that change in it,
+    /// prescribed displacements and loads that act on no material.
     ///
     /// # Errors
-    /// When memory does not suffice, and where a structure comes back into soil.
+    /// When memory does not suffice, and where a structure comes back into soil, or soil into a structure.
     pub fn begin_phase(&mut self) -> Result<Vec<String>> {
         let Some(phase) = self.scene.phases.get(self.state.phase) else { return Ok(Vec::new()) };
-        if removal::remove::<D, K>(self.scene, &mut self.grid, &mut self.state)? {
+        let goes = removal::remove::<D, K>(self.scene, &mut self.grid, &mut self.state)?;
+        let placed = placement::place::<D, K>(self.scene, &mut self.grid, &mut self.state)?;
+        if goes || !placed.is_empty() {
             self.initialise(false)?;
-            removal::hold(self.scene, &mut self.grid, &mut self.state)?;
+            if self.state.moving {
+                transfer::motion_to_grid::<D, K>(self.scene, &mut self.grid, &mut self.state)?;
+            }
+            unbalanced::hold_over_phase(self.scene, &mut self.grid, &mut self.state)?;
+        }
+        if phase.dynamic
+            && !self.scene.absorbing.is_empty()
+            && self.state.ramp.force.is_empty()
+            && self.state.phase_time == 0.0
+        {
+            self.find_loads_and_contacts()?;
+            unbalanced::keep_reactions(self.scene, &mut self.grid, &mut self.state)?;
         }
         overlap::on_return(self.scene, &self.state)?;
         if self.scene.terms.iter().any(|term| term.sees_open_boundary()) {
@@ -154,7 +169,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             ))
         });
         let changes = materials::notes::<D, K>(self.scene, &self.state);
-        Ok(changes.into_iter().chain(notes).chain(loads).collect())
+        Ok(placed.into_iter().chain(changes).chain(notes).chain(loads).collect())
     }
 
     /// Whether the phase is dynamic and nothing will move in it any more: with no more kinetic energy than `kinetic` (kJ), and in equilibrium under
@@ -381,6 +396,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
             rigid::motion_to_points(scene, state);
         }
         timed(Activity::Contact, || contact::project_out(scene, state, &mut contacts));
+        state.commit_bars(scene);
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;

@@ -17,6 +17,7 @@ use crate::kinematics::Kinematics;
 use crate::mesh::{Bodies, Mesh};
 use crate::points::Points;
 use crate::quadrature::Samples;
+use rayon::prelude::*;
 
 /// Part (-) of `Σ m |x|²` that rounding may leave of the moment of inertia of a body whose mass is in one place.
 const ROUNDING: f64 = 1e-12;
@@ -110,6 +111,7 @@ pub fn complete_points<const D: usize, K: Kinematics<D>>(
     let wanted = momentum(&bodies, &samples.points, &places(&samples.points.position, &moved), &field);
     let of_material = grid.family_of_material(scene, state);
     let position = places(&state.points.position, &interpolate::<D, K>(&of_material, back));
+    bound(&scene.mesh, (&samples.points, &field), &state.points, values);
     let has = momentum(&bodies, &state.points, &position, values);
     let rigid: Vec<Rigid<D>> = has.iter().zip(&wanted).map(|(has, wanted)| has.towards::<K>(wanted)).collect();
     for ((value, x), &c) in values.iter_mut().zip(&position).zip(&state.points.cell) {
@@ -118,6 +120,34 @@ pub fn complete_points<const D: usize, K: Kinematics<D>>(
             (0..D).for_each(|d| value[d] += more[d]);
         }
     }
+}
+
+/// Bounds the `values` of a nodal field at material points by those at the integration points of the cells that share nodes with theirs: they lie beyond the
+/// range of these by no more than its width. What the equations do not see may be anything: nodes that only a corner of the surface reaches have little
+/// mass, and the points beside them would take any velocity.
+fn bound<const D: usize>(
+    mesh: &Mesh<D>,
+    (samples, field): (&Points<D>, &[[f64; D]]),
+    points: &Points<D>,
+    values: &mut [[f64; D]],
+) {
+    let nothing = [[f64::INFINITY, f64::NEG_INFINITY]; D];
+    let mut of_node = vec![nothing; mesh.nodes.len()];
+    let widen = |range: &mut [[f64; 2]; D], by: &[[f64; 2]; D]| {
+        range.iter_mut().zip(by).for_each(|(range, by)| *range = [range[0].min(by[0]), range[1].max(by[1])]);
+    };
+    for (value, &c) in field.iter().zip(&samples.cell) {
+        mesh.cells.nodes(c as usize).iter().for_each(|&n| widen(&mut of_node[n as usize], &value.map(|v| [v, v])));
+    }
+    values.par_iter_mut().zip(&points.cell).with_min_len(256).for_each(|(value, &c)| {
+        let mut range = nothing;
+        mesh.cells.nodes(c as usize).iter().for_each(|&n| widen(&mut range, &of_node[n as usize]));
+        for (value, [low, high]) in value.iter_mut().zip(range) {
+            if low <= high {
+                *value = value.clamp(2.0 * low - high, 2.0 * high - low);
+            }
+        }
+    });
 }
 
 /// Corrects a nodal `field`, so that it has at the integration points the momentum of `values` at the material points.
@@ -204,4 +234,30 @@ fn momentum<const D: usize>(
         }
     }
     momentum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::bound;
+    use crate::mesh::builder::rectangle;
+    use crate::mesh::shape::CellKind;
+    use crate::quadrature::fixture::undeformed;
+
+    /// Three cells in a row, integration points in the first two: values beyond the width of their range are cut off, also in the third cell, and those of a
+    /// linear field stay.
+    #[test]
+    fn values_are_bounded_by_those_that_the_equations_see() {
+        let mesh = rectangle(CellKind::Q4, 3.0, 1.0, 3, 1, 0.0, 1);
+        let samples = undeformed(&mesh, vec![[0.25, 0.5], [0.75, 0.5], [1.25, 0.5], [1.75, 0.5]], 0.5);
+        let linear = |x: &[f64; 2]| [1.0 + 2.0 * x[0], 3.0];
+        let field: Vec<[f64; 2]> = samples.position.iter().map(linear).collect();
+        let points = undeformed(&mesh, vec![[0.1, 0.5], [1.9, 0.9], [2.1, 0.5], [2.1, 0.5]], 0.5);
+        let mut values: Vec<[f64; 2]> = points.position.iter().map(linear).collect();
+        values[3] = [100.0, -100.0];
+        let mut expected = values.clone();
+        // The second cell has 3.5 to 4.5 in the first component, and one value in the other.
+        expected[3] = [5.5, 3.0];
+        bound(&mesh, (&samples, &field), &points, &mut values);
+        assert_eq!(values, expected);
+    }
 }

@@ -45,6 +45,22 @@ pub fn on_return<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<(
     Err(Error::analysis(found.place, problem, remedy))
 }
 
+/// The same where a phase has placed soil.
+///
+/// # Errors
+/// Analysis: such a structure.
+pub fn on_placement<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()> {
+    let at = |n: u32| position(scene, state, n);
+    let mut touching = scene.touching(state.phase);
+    let Some(found) = touching.find_map(|(_, interface)| within(scene, &state.points, interface, &at)) else {
+        return Ok(());
+    };
+    let problem =
+        format!("phase `{}` places soil where the structure is: {}", scene.phases[state.phase].name, found.problem);
+    let remedy = "in the .geo, leave the place of the structure out of the region";
+    Err(Error::analysis(found.place, problem, remedy))
+}
+
 /// Soil in a structure.
 struct Found {
     place: String,

@@ -11,6 +11,9 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::mesh::shape::MAX_NODES;
 
+/// The time (s) of a release that never comes.
+pub const KEPT: f64 = f64::MAX;
+
 /// Forces that are held.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UnbalancedRamp<const D: usize> {
@@ -25,6 +28,11 @@ impl<const D: usize> UnbalancedRamp<D> {
     /// The part (-) that is held at a time (s) of the phase.
     pub fn share(&self, time: f64) -> f64 {
         if self.force.is_empty() { 0.0 } else { (1.0 - (time - self.from) / (self.until - self.from)).max(0.0) }
+    }
+
+    /// Whether what is held is never released: what held a boundary that waves leave through.
+    pub fn is_kept(&self) -> bool {
+        self.until == KEPT
     }
 
     /// The largest force (kN) on a node.

@@ -2,11 +2,9 @@
 
 use super::energies::Item;
 use super::grid::Grid;
-use super::ramp::UnbalancedRamp;
 use super::relax;
 use super::scene::Scene;
 use super::state::State;
-use super::unbalanced;
 use super::work;
 use crate::error::Result;
 use crate::kinematics::Kinematics;
@@ -48,20 +46,4 @@ pub fn remove<const D: usize, K: Kinematics<D>>(
     state.balanced = None;
     work::note(scene, grid, state, Item::Changes)?;
     Ok(true)
-}
-
-/// Holds what the removed soil bore, and takes it off evenly until the end of the phase: without inertia, and where the phase is not to find out by
-/// itself whether there is an equilibrium.
-///
-/// # Errors
-/// When the state is inadmissible on the reset grid.
-pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>) -> Result<()> {
-    let phase = &scene.phases[state.phase];
-    if phase.dynamic || phase.auto || phase.search.is_some() {
-        return Ok(());
-    }
-    if let Some(force) = unbalanced::to_hold(scene, grid, state, (0.0, scene.numerics.tolerance))? {
-        state.ramp = UnbalancedRamp { force, from: 0.0, until: phase.duration };
-    }
-    Ok(())
 }

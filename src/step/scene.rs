@@ -1,16 +1,17 @@
 //! A scene: everything that does not change while it is solved.
 
-use super::change::Change;
+use super::change::{Change, Material};
 use crate::contact::Interface;
 use crate::dofs::{Places, RigidDofs};
 use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
-use crate::quadrature::{Parting, Quadrature};
+use crate::quadrature::{Parting, Placing, Quadrature};
 use crate::rigid::Body;
 use crate::system::LinearConstraints;
-use crate::term::{MixedPressure, Porous, Term, WaterLevels};
+use crate::term::{Bar, MixedPressure, Porous, Term, WaterLevels};
 use crate::time_value::TimeValue;
+use std::sync::Arc;
 
 /// What a case resolves into. Only [`crate::case`] decides which terms it has.
 pub struct Scene<const D: usize> {
@@ -22,6 +23,8 @@ pub struct Scene<const D: usize> {
     pub fem: Option<Fem<D>>,
     /// The rigid bodies: their unknowns have numbers after those of the nodes of [`Scene::mesh`].
     pub bodies: Vec<Body<D>>,
+    /// Bars between nodes of finite elements, or to places that do not move.
+    pub bars: Arc<[Bar<D>]>,
     /// The contact interfaces.
     pub interfaces: Vec<Box<dyn Interface<D>>>,
     /// The levels of the water outside and in the pores, where they differ: for the effective contact pressure (docs/theory.md, eq. 29a).
@@ -39,9 +42,13 @@ pub struct Scene<const D: usize> {
     pub water: Option<Water>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
+    /// Those of boundaries that waves leave through, which are held in phases without inertia only.
+    pub absorbing: Vec<Fixed>,
     pub phases: Vec<Phase>,
     /// The soil that each phase removes as it begins.
     pub removals: Vec<Option<Removal<D>>>,
+    /// The soil that each phase places as it begins, after that.
+    pub placements: Vec<Option<Placement<D>>>,
     /// Time (s) at which the run begins: 0, or less where its first phase comes before those of the user.
     pub begins: f64,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.
@@ -153,6 +160,18 @@ impl<const D: usize> Scene<D> {
         phase.moves() && !phase.loads_change && self.has_friction()
     }
 
+    /// Whether the phases that have begun, given the one in hand and the time (s) in it, have removed soil of each region or placed some.
+    pub fn touched(&self, phase: usize, time: f64) -> Vec<bool> {
+        let begun = phase + usize::from(time > 0.0);
+        let mut touched = vec![false; self.mesh.regions.len()];
+        for removal in self.removals.iter().take(begun).flatten() {
+            touched.iter_mut().zip(&removal.regions).for_each(|(touched, goes)| *touched |= goes);
+        }
+        let placed = self.placements.iter().take(begun).flatten().flat_map(|placement| &placement.soils);
+        placed.for_each(|soil| touched[usize::from(soil.region)] = true);
+        touched
+    }
+
     /// The interfaces that are active in a phase, with their numbers.
     pub fn touching(&self, phase: usize) -> impl Iterator<Item = (usize, &dyn Interface<D>)> {
         let apart = self.phases.get(phase).map_or(&[][..], |phase| &phase.apart);
@@ -227,6 +246,8 @@ pub struct Phase {
     pub prescribed: Vec<Prescribed>,
     /// Whether loads, gravity, water levels or strengths change during it.
     pub loads_change: bool,
+    /// Whether a load is a formula in time, and not linear between the stops.
+    pub by_formula: bool,
     /// What strengths are divided by (-); absent where they are as given.
     pub reduction: Option<TimeValue>,
     /// Present where the phase looks for the reduction of strength that leaves no equilibrium.
@@ -249,7 +270,7 @@ impl Phase {
         self.reduction.as_ref().map_or(1.0, |factor| factor.at(time))
     }
 
-    /// Times (s) since the phase began; between them all prescribed values and loads are linear in time.
+    /// Times (s) since the phase began; between them all prescribed values, and loads that are no formulas, are linear in time.
     pub fn times(&self) -> impl Iterator<Item = f64> {
         std::iter::once(0.0).chain(self.stops.iter().map(|stop| stop.time))
     }
@@ -272,6 +293,24 @@ pub struct Removal<const D: usize> {
     pub regions: Vec<bool>,
     /// Where the rest ends.
     pub parting: Box<dyn Parting<D>>,
+}
+
+/// The soil that a phase places.
+pub struct Placement<const D: usize> {
+    /// The soil of each region that is filled.
+    pub soils: Vec<Soil>,
+    /// Where it comes to be, region by region.
+    pub placing: Box<dyn Placing<D>>,
+}
+
+/// Soil of a region.
+#[derive(Clone, Debug)]
+pub struct Soil {
+    /// Index into the regions of the mesh.
+    pub region: u16,
+    /// The number of its material among those of the scene ([`crate::points::Points::model_of`]).
+    pub number: u16,
+    pub material: Material,
 }
 
 /// How far soil may move without inertia (-), over its height: farther counts as failure in a strength reduction, and gives a warning

@@ -7,6 +7,7 @@ use crate::contact::Multipliers;
 use crate::points::Points;
 use crate::quadrature::Weights;
 use crate::surface::{MarkerFront, Voids};
+use crate::term::Bar;
 use crate::time_integration::GeneralisedAlpha;
 
 /// A step between two times of a phase: its loads are those of the second.
@@ -50,6 +51,8 @@ pub struct State<const D: usize> {
     pub nodes: Vec<[f64; D]>,
     /// Multipliers and history of the contact nodes of each interface.
     pub multipliers: Vec<Multipliers>,
+    /// The free length (m) of each bar.
+    pub free_lengths: Vec<f64>,
     /// Whether the velocities and accelerations of the points are those of the motion: false until the first
     /// dynamic step has computed the accelerations from the forces.
     pub moving: bool,
@@ -155,8 +158,12 @@ impl<const D: usize> State<D> {
     pub fn next_phase(&mut self, scene: &Scene<D>) {
         let moved = self.dynamic(scene);
         self.phase += 1;
+        self.begin_bars(scene);
         self.phase_time = 0.0;
-        (self.switched_to_dynamics, self.peak, self.ramp) = (false, 0.0, UnbalancedRamp::default());
+        (self.switched_to_dynamics, self.peak) = (false, 0.0);
+        if !(moved && self.ramp.is_kept() && scene.phases.get(self.phase).is_some_and(|next| next.dynamic)) {
+            self.ramp = UnbalancedRamp::default();
+        }
         self.start_position.clear();
         self.search_geometry.clear();
         self.search_curve.clear();
@@ -179,6 +186,36 @@ impl<const D: usize> State<D> {
                 }
             }
         }
+    }
+
+    /// How far (m) the ends of a bar are apart.
+    fn length_of(&self, scene: &Scene<D>, bar: &Bar<D>) -> f64 {
+        let at = |n: u32| {
+            let (x, u) = (self.at_reset(scene, n), &self.displacement[n as usize]);
+            std::array::from_fn(|d| x[d] + u[d])
+        };
+        bar.line(at).0
+    }
+
+    /// The free lengths of bars as the phase in hand begins.
+    pub fn begin_bars(&mut self, scene: &Scene<D>) {
+        self.free_lengths.resize(scene.bars.len(), 0.0);
+        for (i, bar) in scene.bars.iter().enumerate() {
+            self.free_lengths[i] = bar.begun(self.phase, self.free_lengths[i], self.length_of(scene, bar));
+        }
+    }
+
+    /// The free lengths of bars after a converged step.
+    pub fn commit_bars(&mut self, scene: &Scene<D>) {
+        for (i, bar) in scene.bars.iter().enumerate() {
+            self.free_lengths[i] = bar.yielded(self.phase, self.free_lengths[i], self.length_of(scene, bar));
+        }
+    }
+
+    /// The force (kN, tension positive) of a bar by its number.
+    pub fn force_of_bar(&self, scene: &Scene<D>, number: usize) -> f64 {
+        let bar = &scene.bars[number];
+        bar.force(self.phase, self.free_lengths[number], self.length_of(scene, bar)).0
     }
 
     /// Forgets the motion, at the end of a dynamic phase before a quasi-static one.

@@ -4,9 +4,9 @@
 use super::balance::static_force;
 use super::grid::Grid;
 use super::problem::Problem;
-use super::ramp::UnbalancedRamp;
+use super::ramp::{KEPT, UnbalancedRamp};
 use super::report::Motion;
-use super::scene::Scene;
+use super::scene::{Fixed, Scene};
 use super::state::State;
 use crate::error::Result;
 
@@ -35,6 +35,36 @@ pub fn hold<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut St
     if let Some(force) = to_hold(scene, grid, state, (loaded, ignored))? {
         state.ramp = UnbalancedRamp { force, from, until: from + dt };
     }
+    Ok(())
+}
+
+/// Holds what removed soil bore and the weight of placed soil, and takes that off evenly until the end of the phase: without inertia, and where the
+/// phase is not to find out by itself whether there is an equilibrium.
+///
+/// # Errors
+/// When the state is inadmissible on the reset grid.
+pub fn hold_over_phase<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>) -> Result<()> {
+    let phase = &scene.phases[state.phase];
+    if phase.dynamic || phase.auto || phase.search.is_some() {
+        return Ok(());
+    }
+    if let Some(force) = to_hold(scene, grid, state, (0.0, scene.numerics.tolerance))? {
+        state.ramp = UnbalancedRamp { force, from: 0.0, until: phase.duration };
+    }
+    Ok(())
+}
+
+/// Keeps what has held the boundaries that waves leave through, as the first phase with inertia begins.
+///
+/// # Errors
+/// When the state is inadmissible.
+pub fn keep_reactions<const D: usize>(scene: &Scene<D>, grid: &mut Grid<D>, state: &mut State<D>) -> Result<()> {
+    let Some(all) = to_hold(scene, grid, state, (0.0, 0.0))? else { return Ok(()) };
+    let mut force = vec![[0.0; D]; all.len()];
+    for Fixed { nodes, component } in &scene.absorbing {
+        nodes.iter().for_each(|&n| force[n as usize][*component] = all[n as usize][*component]);
+    }
+    state.ramp = UnbalancedRamp { force, from: 0.0, until: KEPT };
     Ok(())
 }
 
@@ -94,7 +124,7 @@ pub fn stays_at_rest<const D: usize>(
     [part, kinetic]: [f64; 2],
 ) -> Result<bool> {
     let phase = &scene.phases[state.phase];
-    if phase.flows || phase.moves() || Motion::of(state).kinetic > kinetic {
+    if phase.flows || phase.moves() || phase.by_formula || Motion::of(state).kinetic > kinetic {
         return Ok(false);
     }
     let now = state.phase_time;

@@ -5,6 +5,7 @@
 //! counter-clockwise around a body, clockwise around a hole. Where the material lies against the boundary of the mesh
 //! the loop runs along that, in pieces that are *wall* and not free surface.
 
+use super::front::MarkerFront;
 use super::geometry::Geometry;
 use super::loops::loops;
 use super::path::Path;
@@ -97,6 +98,16 @@ impl ActiveBoundary {
     /// The pieces of a loop.
     pub fn pieces(&self, l: usize) -> &[Piece] {
         &self.pieces[self.first[l] as usize..self.first[l + 1] as usize]
+    }
+
+    /// A front with a marker at each corner.
+    pub fn front(&self, mesh: &Mesh<2>) -> MarkerFront {
+        let mut front = MarkerFront { position: Vec::new(), first: vec![0] };
+        for l in 0..self.loops() {
+            front.position.extend(self.corners(mesh, &mesh.nodes, l));
+            front.first.push(front.position.len() as u32);
+        }
+        front
     }
 
     /// The corners (m) of a loop, one where each piece begins, on a grid with its nodes at `nodes`.

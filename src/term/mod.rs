@@ -4,6 +4,8 @@
 //! The system solved in each step is `R(u) = 0` with `R = Σ terms`, internal forces positive. A term adds
 //! its residual and, when asked, its tangent; the ones that carry history commit it after convergence.
 
+mod absorbing;
+mod bar;
 mod body_force;
 mod contact;
 mod drained_surface;
@@ -34,6 +36,8 @@ mod volume_measure;
 mod water;
 mod water_levels;
 
+pub use absorbing::Absorbing;
+pub use bar::{Bar, Bars, End, Mode};
 pub use body_force::BodyForce;
 pub use contact::{Contact, answer as contact_answer};
 pub use drained_surface::DrainedSurface;
@@ -49,12 +53,12 @@ pub use mixed::{Mixed, Ratios};
 pub use mixed_pressure::{MixedPressure, excess_pressure};
 pub use pore_stabilisation::PoreStabilisation;
 pub use pressure::{PressureField, shapes as pressure_shapes};
-pub use rigid::{RigidInertia, RigidTraction, RigidWeight};
+pub use rigid::{RigidFormulaTraction, RigidInertia, RigidTraction, RigidWeight};
 pub use rigid_pressure::RigidPressure;
 pub use smooth_pressure::SmoothPressure;
 pub use source::{Source, Works};
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
-pub use traction::Traction;
+pub use traction::{Course, FormulaTraction, Formulas, Sample, Traction, samples};
 pub use virtual_pressure::VirtualPressure;
 pub use water::{PoreWater, Porous, WaterStiffness};
 pub use water_levels::WaterLevels;
@@ -145,6 +149,9 @@ pub struct Frame<'a, const D: usize> {
     pub linear_constraints: Option<&'a LinearConstraints>,
     /// The coupling of each rigid body.
     pub bodies: &'a [u32],
+    /// The coupling of each bar, and its free length (m).
+    pub bars: &'a [u32],
+    pub free_lengths: &'a [f64],
 }
 
 /// Whether the contact status is frozen: contact nodes that were in compression in the step before, or are initially closed, are closed then, whether
@@ -275,6 +282,8 @@ pub enum Role {
     Internal,
     /// Applied from outside.
     External,
+    /// The same, of what gives way: it follows the trial state where the geometry of loads is held.
+    Restoring,
     /// Inertia, absent from quasi-static phases.
     Inertia,
 }
@@ -307,7 +316,7 @@ pub trait Term<const D: usize>: Send + Sync {
     fn source(&self) -> Source {
         match self.role() {
             Role::Internal => Source::Stress,
-            Role::External => Source::Load,
+            Role::External | Role::Restoring => Source::Load,
             Role::Inertia => Source::Inertia,
         }
     }

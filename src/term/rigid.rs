@@ -3,6 +3,7 @@
 //! The reference point is the centroid, so that `m a` and `J α` are uncoupled and the weight has no moment. A dead
 //! traction keeps its direction: its moment `Σ (R r) × f` turns with the body.
 
+use super::traction::{Formulas, Sample};
 use super::{Assembly, Frame, Role, Source, Term, Trial};
 use crate::error::Result;
 use crate::gravity::Gravity;
@@ -129,6 +130,54 @@ impl<const D: usize> Term<D> for RigidTraction<D> {
             let first = frame.pattern.start[frame.block[rotation as usize] as usize] as usize;
             let slope = (1.0 - trial.alpha_f) * against / self.body.dofs.arm.powi(2);
             tangent.add_diagonal(frame.pattern, first, slope);
+        }
+        Ok(())
+    }
+}
+
+/// A dead traction on a curve of a body that is a formula of the place as the run began, and the time.
+pub struct RigidFormulaTraction<const D: usize> {
+    body: Body<D>,
+    phase: usize,
+    formulas: Formulas,
+    /// Places (m) on the curve, each with its share (m²) of the area.
+    places: Vec<([f64; D], f64)>,
+}
+
+impl<const D: usize> RigidFormulaTraction<D> {
+    /// Of `formulas` at the places of a rule, in `phase`.
+    pub fn new(body: &Body<D>, samples: &[Sample<D>], phase: usize, formulas: Formulas) -> Self {
+        let place = |sample: &Sample<D>| (sample.place, sample.shares.iter().map(|(_, share)| share).sum());
+        Self { body: body.clone(), phase, formulas, places: samples.iter().map(place).collect() }
+    }
+}
+
+impl<const D: usize> Term<D> for RigidFormulaTraction<D> {
+    fn role(&self) -> Role {
+        Role::External
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        if trial.phase != self.phase {
+            return Ok(());
+        }
+        let pose = self.body.pose_since(frame.reset, trial.between);
+        for (place, area) in &self.places {
+            let force = self.formulas.at(place, trial.time)?.map(|t| area * t);
+            add(frame, self.body.dofs.translation, &force.map(|f| -f), out);
+            let Some(rotation) = self.body.dofs.rotation else { continue };
+            let arm = pose.turn(&std::array::from_fn(|d| place[d] - self.body.centre[d]));
+            let [_, moment] = self.body.hand_on(&arm, &force);
+            add(frame, rotation, &moment.map(|m| -m), out);
+            if let Some(tangent) = &mut out.tangent {
+                let against: f64 = arm.iter().zip(&force).map(|(r, f)| r * f).sum();
+                let first = frame.pattern.start[frame.block[rotation as usize] as usize] as usize;
+                tangent.add_diagonal(
+                    frame.pattern,
+                    first,
+                    (1.0 - trial.alpha_f) * against / self.body.dofs.arm.powi(2),
+                );
+            }
         }
         Ok(())
     }

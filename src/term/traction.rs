@@ -6,11 +6,12 @@
 use super::facet_pressure::spans;
 use super::{Assembly, Frame, Role, Term, Trial};
 use crate::error::{Error, Result};
+use crate::expression::Expression;
 use crate::geometry::dot;
 use crate::kinematics::Kinematics;
 use crate::mesh::shape::{CellKind, MAX_NODES, rule};
 use crate::mesh::{Group, Mesh, height};
-use crate::time_value::TimeValue;
+use crate::time_value::{TimeValue, interpolate};
 use std::marker::PhantomData;
 
 /// A traction on one curve in one phase.
@@ -29,7 +30,7 @@ impl<K, const D: usize> Traction<K, D> {
     where
         K: Kinematics<D>,
     {
-        Self::of_shares(Self::shares(mesh, group, None), phase, value)
+        Self::of_shares(Self::shares(mesh, group, &Course::Uniform), phase, value)
     }
 
     /// The traction `value` in `phase` on nodes with shares of the area (m²), or of its moment ([`Self::shares`]).
@@ -37,36 +38,145 @@ impl<K, const D: usize> Traction<K, D> {
         Self { phase, value, area, kinematics: PhantomData }
     }
 
-    /// `∫ N_I dS` (m²) of the nodes of `group` on the undeformed `mesh`, where it is not zero; with a `datum` (m) `∫ N_I ⟨datum − y⟩ dS` (m³), of
-    /// what grows with the depth below it.
-    pub fn shares(mesh: &Mesh<D>, group: &Group, datum: Option<f64>) -> Vec<(u32, f64)>
+    /// `∫ N_I c dS` of the nodes of `group` on the undeformed `mesh`, where it is not zero; `c` is the course of the traction along the curve.
+    pub fn shares(mesh: &Mesh<D>, group: &Group, course: &Course) -> Vec<(u32, f64)>
     where
         K: Kinematics<D>,
     {
         let mut area = vec![0.0; mesh.nodes.len()];
-        for (kind, nodes) in &group.facets {
-            let ends = match datum {
-                Some(datum) => {
-                    let heights: Vec<f64> = nodes.iter().map(|&n| height(&mesh.nodes[n as usize])).collect();
-                    spans(&heights, &[datum])
-                }
-                None => vec![-1.0, 1.0],
-            };
-            for span in ends.windows(2) {
-                let (middle, half) = (f64::midpoint(span[0], span[1]), 0.5 * (span[1] - span[0]));
-                for (xi, weight) in rule(*kind, 2 * kind.order() + 1) {
-                    let xi = if datum.is_some() { [middle + half * xi[0], 0.0, 0.0] } else { xi };
-                    let mut n = [0.0; MAX_NODES];
-                    kind.values(&xi, &mut n);
-                    let (x, stretch) = facet_point(mesh, *kind, nodes, &xi, &n);
-                    let depth = datum.map_or(1.0, |datum| half * (datum - height(&x)).max(0.0));
-                    for (i, &node) in nodes.iter().enumerate() {
-                        area[node as usize] += weight * stretch * K::measure(&x) * depth * n[i];
-                    }
-                }
-            }
+        for sample in samples::<K, D>(mesh, group, course) {
+            let value = course.at(&sample.place);
+            sample.shares.iter().for_each(|&(n, share)| area[n as usize] += value * share);
         }
         (0..).zip(area).filter(|(_, a)| *a != 0.0).collect()
+    }
+}
+
+/// How a traction varies along a curve.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Course {
+    Uniform,
+    /// `⟨datum − y⟩` (m), the depth below a datum (m).
+    Depth(f64),
+    /// Linear between pairs of a coordinate (m), by the number of its axis, and a value, constant before the first and after the last.
+    Table(usize, Vec<[f64; 2]>),
+    /// A function of the place, which is sampled.
+    Free,
+}
+
+impl Course {
+    /// Its value at a place (m); one where that varies otherwise.
+    fn at<const D: usize>(&self, x: &[f64; D]) -> f64 {
+        match self {
+            Self::Uniform | Self::Free => 1.0,
+            Self::Depth(datum) => (datum - height(x)).max(0.0),
+            Self::Table(axis, table) => interpolate(table, x[*axis]),
+        }
+    }
+
+    /// The axis along which its slope jumps, and where (m).
+    fn breaks<const D: usize>(&self) -> Option<(usize, Vec<f64>)> {
+        match self {
+            Self::Uniform | Self::Free => None,
+            Self::Depth(datum) => Some((D - 1, vec![*datum])),
+            Self::Table(axis, table) => Some((*axis, table.iter().map(|[at, _]| *at).collect())),
+        }
+    }
+}
+
+/// A place (m) on a curve, with the share (m²) of its area that each node has.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sample<const D: usize> {
+    pub place: [f64; D],
+    pub shares: Vec<(u32, f64)>,
+}
+
+/// Degrees that are integrated beyond that of a uniform traction where it is any function.
+const MORE: usize = 4;
+
+/// The places of a rule on `group` of the undeformed `mesh` that is exact for a `course`, or to a high degree for any function.
+pub fn samples<K: Kinematics<D>, const D: usize>(mesh: &Mesh<D>, group: &Group, course: &Course) -> Vec<Sample<D>> {
+    let breaks = course.breaks::<D>();
+    let more = if *course == Course::Free { MORE } else { 0 };
+    let mut samples = Vec::new();
+    for (kind, nodes) in &group.facets {
+        let ends = match &breaks {
+            Some((axis, breaks)) => {
+                let along: Vec<f64> = nodes.iter().map(|&n| mesh.nodes[n as usize][*axis]).collect();
+                spans(&along, breaks)
+            }
+            None => vec![-1.0, 1.0],
+        };
+        for span in ends.windows(2) {
+            let (middle, half) = (f64::midpoint(span[0], span[1]), 0.5 * (span[1] - span[0]));
+            for (xi, weight) in rule(*kind, 2 * kind.order() + 1 + more) {
+                let xi = if breaks.is_some() { [middle + half * xi[0], 0.0, 0.0] } else { xi };
+                let mut n = [0.0; MAX_NODES];
+                kind.values(&xi, &mut n);
+                let (place, stretch) = facet_point(mesh, *kind, nodes, &xi, &n);
+                let area = weight * stretch * K::measure(&place) * if breaks.is_some() { half } else { 1.0 };
+                samples
+                    .push(Sample { place, shares: nodes.iter().zip(n).map(|(&node, n)| (node, area * n)).collect() });
+            }
+        }
+    }
+    samples
+}
+
+/// Components (kPa) of a dead traction as formulas of the place and the time; zero where there is none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formulas(pub [Option<Expression>; 2]);
+
+impl Formulas {
+    /// The traction (kPa) at a place (m) and a time (s).
+    ///
+    /// # Errors
+    /// Analysis: it has no value there.
+    pub fn at<const D: usize>(&self, place: &[f64; D], time: f64) -> Result<[f64; D]> {
+        let mut value = [0.0; D];
+        for (value, formula) in value.iter_mut().zip(&self.0) {
+            let Some(formula) = formula else { continue };
+            *value = formula.at([place[0], place[1]], time);
+            if !value.is_finite() {
+                return Err(Error::analysis(
+                    format!("the load `{formula}`"),
+                    format!("its value at {place:.4?} m and {time} s of the phase is {value}"),
+                    "write a formula that is a number on all of the curve and at all times of the phase",
+                ));
+            }
+        }
+        Ok(value)
+    }
+}
+
+/// A traction on one curve in one phase that is a formula.
+pub struct FormulaTraction<const D: usize> {
+    phase: usize,
+    formulas: Formulas,
+    samples: Vec<Sample<D>>,
+}
+
+impl<const D: usize> FormulaTraction<D> {
+    /// Of `formulas` at the places of a rule, in `phase`.
+    pub fn new(samples: Vec<Sample<D>>, phase: usize, formulas: Formulas) -> Self {
+        Self { phase, formulas, samples }
+    }
+}
+
+impl<const D: usize> Term<D> for FormulaTraction<D> {
+    fn role(&self) -> Role {
+        Role::External
+    }
+
+    fn assemble(&self, frame: &Frame<D>, trial: &Trial<D>, out: &mut Assembly) -> Result<()> {
+        if trial.phase != self.phase {
+            return Ok(());
+        }
+        for Sample { place, shares } in &self.samples {
+            let traction = self.formulas.at(place, trial.time)?;
+            shares.iter().for_each(|&(n, share)| add(frame, n, traction.map(|t| -share * t), out));
+        }
+        Ok(())
     }
 }
 

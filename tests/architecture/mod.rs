@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 const LAYERS: [&[&str]; 7] = [
     &[
         "error",
+        "expression",
         "geometry",
         "gravity",
         "machine",

@@ -6,9 +6,12 @@ use std::path::Path;
 use std::process::Command;
 
 /// The templates, and what makes the mesh of each coarse.
-const TEMPLATES: [(&str, &str); 9] = [
+const TEMPLATES: [(&str, &str); 12] = [
     ("anchor", "0.25"),
     ("consolidation", "0.1"),
+    ("cpt", "0.006"),
+    ("embankment", "0.8"),
+    ("excavation", "0.25"),
     ("footing", "0.2"),
     ("impact", "0.1"),
     ("penetration", "0.25"),

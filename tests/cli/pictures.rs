@@ -65,9 +65,40 @@ fn what_cannot_be_drawn_is_told_with_what_can() {
         (&["--field", "stress.yy", "--window", "0,0,1"], &["3 numbers for 4"]),
         (&["--field", "stress.yy", "--contact"], &["no contact"]),
         (&["--field", "stress.yy", "-o", "s.jpg"], &["SVG or PNG"]),
+        (&["--field", "stress.yy", "--plastic-points"], &["no field `plastic_points`", "output.fields"]),
+        (&["--field", "stress.yy", "--arrows", "velocity"], &["no field `velocity`"]),
+        (&["--field", "stress.yy", "--hide", "rock"], &["no region `rock`", "block"]),
+        (&["--field", "stress.yy", "--net", "0"], &["above 0"]),
+        (&["--field", "stress.yy", "--x", "time"], &["--x", "for curves of histories"]),
+        (&["--field", "stress.yy", "--along", "1,1,1,1"], &["no length"]),
+        (&["--field", "stress.yy", "--along", "5,0,5,2"], &["no soil along the line"]),
+        (&["--field", "stress", "--along", "0.5,0,0.5,2"], &["no such component", "stress.yy"]),
     ] {
         says(&in_folder(folder.path(), &[&["plot", "."], arguments].concat()), 2, parts);
     }
+}
+
+#[test]
+fn what_is_drawn_over_a_field_and_along_a_line() {
+    let folder = solved();
+    let plot = |arguments: &[&str]| in_folder(folder.path(), &[&["plot", "."], arguments].concat());
+    let over = ["--arrows", "displacement", "--crosses", "--contours", "--net", "0.1", "--title", "A block"];
+    says(&plot(&[&["--field", "stress.yy", "-o", "o.svg"], &over[..]].concat()), 0, &["o.svg: t = 1 s"]);
+    let text = fs::read_to_string(folder.path().join("o.svg")).unwrap();
+    for said in ["A block, phase load, t = 1 s", "displacement 0.0", "compression "] {
+        assert!(text.contains(said), "{said}");
+    }
+    // Along a vertical line the height is the vertical axis, and a time is a curve.
+    let along =
+        ["--field", "stress.yy", "--along", "0.5,-1,0.5,2", "--times", "0.5,1", "--label", "half", "--label", "all"];
+    says(&plot(&along), 0, &["stress.yy_along.svg", "of 202 places along the line have no soil"]);
+    let text = fs::read_to_string(folder.path().join("out/stress.yy_along.svg")).unwrap();
+    for said in ["y [m]", "stress.yy [kPa]", "half", "from (0.5, −1) m to (0.5, 2) m"] {
+        assert!(text.contains(said), "{said}: {text}");
+    }
+    let along = ["--field", "displacement", "--along", "0,1,1,1", "--stations", "5", "-o", "u.svg"];
+    says(&plot(&along), 0, &["u.svg"]);
+    assert!(fs::read_to_string(folder.path().join("u.svg")).unwrap().contains("displacement [m]"));
 }
 
 #[test]

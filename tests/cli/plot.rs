@@ -111,6 +111,69 @@ fn the_usual_curve_is_the_load_over_the_displacement_where_it_goes() {
 }
 
 #[test]
+fn depths_grow_downwards_curves_have_names_and_long_titles_stay_on_the_paper() {
+    let folder = runs();
+    let title = "A head that is pushed down by one centimetre a row and is then pulled a little in the end, with the load on it, twice";
+    let arguments =
+        ["a", "b", "--x", "head.reaction_y", "--y", "head.uy", "--scale-x", "-1", "--scale-y", "-1", "--down"];
+    let names = [
+        "--label",
+        "first",
+        "--label",
+        "a name that is far too long for half of the width of the picture, so that it is made smaller",
+    ];
+    let drawn = svg(folder.path(), &[&arguments[..], &names, &["--title", title]].concat());
+    // Deeper is lower on the paper.
+    let lines = drawn
+        .lines()
+        .filter(|line| line.starts_with("<polyline") && line.contains(BLUE) && line.matches(',').count() == 4);
+    let heights: Vec<f64> = lines
+        .flat_map(|line| line.split_once("points=\"").unwrap().1.split('"').next().unwrap().split_whitespace())
+        .map(|pair| pair.split_once(',').unwrap().1.parse().unwrap())
+        .collect();
+    assert!(heights.len() == 4 && heights[0] < heights[1] && heights[1] < heights[2], "{heights:?}");
+    let texts = texts(&drawn);
+    assert!(names.iter().skip(1).step_by(2).all(|name| texts.iter().any(|(text, ..)| text == name)), "{texts:?}");
+    let lines: Vec<&String> =
+        texts.iter().map(|(text, ..)| text).filter(|text| title.contains(text.as_str())).collect();
+    assert_eq!(lines.iter().map(|line| line.as_str()).collect::<Vec<_>>().join(" "), title);
+    assert!(lines.len() > 1);
+
+    let few = plot(folder.path(), &["a", "b", "--y", "head.uy", "--label", "one", "-o", "q.svg"]);
+    assert!(!few.status.success() && said(&few).contains("1 names for 2 curves"), "{}", said(&few));
+}
+
+#[test]
+fn axes_with_logarithms_have_powers_of_ten_and_leave_out_what_has_none() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows: String = (-2..4).map(|i| format!("{:e},{:e}\n", 10f64.powi(i), 10f64.powi(-i))).collect();
+    fs::write(folder.path().join("t.csv"), format!("a,b\n0,1\n{rows}")).unwrap();
+    let output = plot(folder.path(), &["t.csv", "--x", "a", "--y", "b", "--log", "xy", "-o", "p.svg"]);
+    succeeds(&output);
+    assert!(said(&output).contains("1 places are left out"), "{}", said(&output));
+    let drawn = fs::read_to_string(folder.path().join("p.svg")).unwrap();
+    let circles = drawn.lines().filter(|line| line.starts_with("<circle"));
+    let places: Vec<[f64; 2]> = circles.map(|line| ["cx", "cy"].map(|name| attribute(line, name).unwrap())).collect();
+    assert_eq!(places.len(), 6, "{drawn}");
+    // On a straight line, at equal distances.
+    for pair in places.windows(3) {
+        assert!((0..2).all(|d| (pair[2][d] - 2.0 * pair[1][d] + pair[0][d]).abs() <= 2.0), "{places:?}");
+    }
+    assert!(["0.01", "100"].iter().all(|tick| texts(&drawn).iter().any(|(text, ..)| text == tick)), "{drawn}");
+    let none = plot(folder.path(), &["t.csv", "--x", "a", "--y", "b", "--scale-y", "-1", "--log", "y", "-o", "q.svg"]);
+    assert!(!none.status.success() && said(&none).contains("no value is positive"), "{}", said(&none));
+}
+
+#[test]
+fn an_empty_field_is_a_gap() {
+    let folder = runs();
+    fs::write(folder.path().join("a/history.csv"), "time [s],p.uy [m]\n0,1\n1,2\n2,\n3,1\n4,2\n").unwrap();
+    let drawn = svg(folder.path(), &["a", "--y", "p.uy"]);
+    let curves = curves(&drawn, BLUE);
+    assert_eq!(curves.iter().map(Vec::len).collect::<Vec<_>>(), [2, 2]);
+}
+
+#[test]
 fn any_columns_are_drawn_of_several_runs_with_what_they_are_compared_to() {
     let folder = runs();
     fs::write(folder.path().join("ref.csv"), "t,F\n0.1,1\n0.3,2\n").unwrap();

@@ -112,10 +112,8 @@ fn curves_of_a_structure_are_there() {
     refused(folder.path(), &["run"], 2, &["phases[0].prescribe.head", "no physical curve `head`", "choose from"]);
     let folder = scene(&[("on: plate, quantities", "on: plat, quantities")]);
     refused(folder.path(), &["run"], 2, &["output.history[0].on", "region `plat`", "did you mean `plate`?"]);
-    let folder = scene(&[("on: plate, quantities", "on: top, quantities")]);
-    let output = mpm(folder.path(), &["check"]);
-    let said = errors(&output);
-    assert_eq!(said.matches("only a structure has contact").count(), 2, "contact_x and contact_y: {said}");
+    let folder = scene(&[("on: plate, quantities", "on: bottom, quantities")]);
+    refused(folder.path(), &["check"], 2, &["`bottom`", "not on the boundary of a structure", "a curve of `plate`"]);
 }
 
 /// It would be looked for among the curves of the mesh, in vain.

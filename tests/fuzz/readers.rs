@@ -358,10 +358,10 @@ impl Histories {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("history.csv");
         let mut history = History::create(&path, &Self::columns()).unwrap();
-        let mut row = |i: u64| history.row(&[0.1 * i as f64, 0.0, -1.0 / 3.0]).unwrap();
+        let mut row = |i: u64| history.row(&[0.1 * i as f64, 0.0, -1.0 / 3.0].map(Some)).unwrap();
         (0..ROWS).for_each(&mut row);
         let mark = history.mark();
-        history.row(&[0.1 * ROWS as f64, 0.0, -1.0 / 3.0]).unwrap();
+        history.row(&[0.1 * ROWS as f64, 0.0, -1.0 / 3.0].map(Some)).unwrap();
         let corpus = vec![fs::read(&path).unwrap()];
         Self { folder, corpus, mark }
     }
@@ -373,7 +373,7 @@ impl Histories {
         Log::resume(&path, mark)?.line("and so on")?;
         fs::write(&path, bytes).unwrap();
         let mut history = History::resume(&path, &Self::columns(), mark)?;
-        history.row(&[1.0, 0.0, 0.5])?;
+        history.row(&[1.0, 0.0, 0.5].map(Some))?;
         Ok(meaning(&fs::read(&path).unwrap()))
     }
 }

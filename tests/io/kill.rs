@@ -48,7 +48,7 @@ fn run(folder: &Path) {
         step += 1;
         advance(&mut state);
         let time = step as f64 * 0.1;
-        history.row(&[time, state[7]]).unwrap();
+        history.row(&[time, state[7]].map(Some)).unwrap();
         if step.is_multiple_of(5) {
             let points = Part { position: state.iter().map(|&x| [x, 0.0, 0.0]).collect(), columns: Vec::new() };
             let frame = Frame {

@@ -120,7 +120,7 @@ fn the_settlement_curve_is_drawn() {
     let mut history = History::create(&out.path().join("history.csv"), &columns).unwrap();
     for i in 0..50 {
         let t = f64::from(i) / 50.0;
-        history.row(&[t, -0.1 * t, -5.14 * (1.0 - (-8.0 * t).exp())]).unwrap();
+        history.row(&[t, -0.1 * t, -5.14 * (1.0 - (-8.0 * t).exp())].map(Some)).unwrap();
     }
     let picture = draw("paraview/strip_footing.py", out.path());
     if let Some(keep) = std::env::var_os("MPM_KEEP_PICTURES") {

@@ -65,7 +65,7 @@ fn write(out: &Path, noise: f64, ripple: f64) {
     let mut history = History::create(&out.join("history.csv"), &columns).unwrap();
     for d in (0..=1400).map(|i| f64::from(i) * 1e-3) {
         let load = 2.0 + d + 0.3 * d * d - 0.2 * d * d * d;
-        history.row(&[d, load * (1.0 + ripple * (std::f64::consts::TAU * d / 0.05).sin()), -d]).unwrap();
+        history.row(&[d, load * (1.0 + ripple * (std::f64::consts::TAU * d / 0.05).sin()), -d].map(Some)).unwrap();
     }
     fs::write(out.join("run.txt"), "ended after 12.50 s: transfer 1 %\n").unwrap();
 }

@@ -80,6 +80,9 @@ fn profiles_on_a_side_have_their_force_and_moment() {
         ("{on: face, pressure: {top: 2, gradient: 20, datum: 0.9}, factor: {rate: 0.5}}", [-5.05, 0.0], -0.81),
         ("{on: face, tx: {top: 2, gradient: -4, datum: 0.7}}", [1.02, 0.0], -0.98 / 3.75),
         ("{on: face, ty: {top: 2, gradient: -4, datum: 0.7}}", [0.0, 1.02], 0.51),
+        ("{on: face, tx: {along: y, values: [[0, -0.8], [0.7, 2], [9, 2]]}}", [1.02, 0.0], -0.98 / 3.75),
+        ("{on: face, ty: {along: y, values: [[0, -0.4], [0.7, 1]]}, factor: {rate: 2}}", [0.0, 1.02], 0.51),
+        ("{on: face, tx: \"2*t - 12*y^2*sin(pi*t/2)\"}", [-2.0, 0.0], 1.0),
         ("{on: top, pressure: {rate: 4}, tx: 3}", [3.0, -4.0], -1.5),
     ] {
         let rigid = of_rigid(load);
@@ -158,10 +161,22 @@ fn loads_on_curves_that_do_nothing_or_have_two_sides_are_told() {
         ("bottom: {uy: 0}", "{on: face, pressure: 3, factor: 2}", "a factor is for a load that varies with depth"),
         ("bottom: {uy: 0}", "{on: face, tx: {top: 1, gradient: -1, least: 0}}", "a traction has no least value"),
         ("bottom: {uy: 0}", "{on: face, pressure: {top: 1, gradient: -1}}", "gradient"),
+        ("bottom: {uy: 0}", "{on: face, pressure: \"2*y\"}", "a pressure varies in time or with depth alone"),
+        (
+            "bottom: {uy: 0}",
+            "{on: face, tx: \"2*z\"}",
+            "the formula has a mistake: it names `z`; known are x, y, t, pi",
+        ),
+        ("bottom: {uy: 0}", "{on: face, tx: \"ln(y - 2)\"}", "its value at"),
+        (
+            "bottom: {uy: 0}",
+            "{on: face, tx: {along: y, values: [[1, 2], [0, 3]]}}",
+            "the coordinate 0 does not come after 1",
+        ),
         (
             "bottom: {uy: 0}",
             "{surface: all, tx: {top: 1, gradient: -1}}",
-            "a traction in a fixed direction does not vary with depth",
+            "a traction in a fixed direction does not vary from place to place",
         ),
     ] {
         let entries =

@@ -17,15 +17,18 @@ mod energy;
 mod equilibrium;
 mod everyday;
 mod excavation;
+mod fill;
 mod footings;
 mod ghost;
 mod gravity;
 mod incompressible;
 mod invariance;
+mod measured;
 mod moved_curves;
 mod obstacles;
 pub mod patch;
 mod phases;
+mod plates;
 mod point_loads;
 mod random_scenes;
 mod random_strength;
@@ -39,6 +42,7 @@ mod slope;
 mod split_footing;
 mod surface;
 mod surface_loads;
+mod waves;
 
 /// What takes more than some seconds; `make test-quick` leaves it out.
 mod slow {

@@ -217,6 +217,7 @@ impl Bench {
         Scene {
             fem,
             bodies: Vec::new(),
+            bars: Vec::new().into(),
             interfaces: Vec::new(),
             levels: None,
             locator: Locator::new(&background),
@@ -229,6 +230,8 @@ impl Bench {
             supports: self.supports,
             traced: Vec::new(),
             removals: Vec::new(),
+            placements: Vec::new(),
+            absorbing: Vec::new(),
             loaded: Vec::new(),
             begins: 0.0,
             phases: vec![Phase {
@@ -241,6 +244,7 @@ impl Bench {
                 prescribed: self.prescribed,
                 reduction: None,
                 loads_change: false,
+                by_formula: false,
                 search: None,
                 held: Vec::new(),
                 apart: Vec::new(),

@@ -159,6 +159,7 @@ impl<K: Kinematics<2>> Stand<K> {
             prescribed: Vec::new(),
             reduction: None,
             loads_change: false,
+            by_formula: false,
             search: None,
             held: Vec::new(),
             apart: Vec::new(),
@@ -169,6 +170,7 @@ impl<K: Kinematics<2>> Stand<K> {
         let scene = Scene {
             fem: None,
             bodies: Vec::new(),
+            bars: Vec::new().into(),
             interfaces: Vec::new(),
             levels: None,
             locator: Locator::new(&mesh),
@@ -184,6 +186,8 @@ impl<K: Kinematics<2>> Stand<K> {
             begins: 0.0,
             phases: vec![phase.clone(), phase],
             removals: Vec::new(),
+            placements: Vec::new(),
+            absorbing: Vec::new(),
             basis: scheme,
             numerics: Numerics {
                 restore: if restored { Restore::EveryStep } else { Restore::Never },

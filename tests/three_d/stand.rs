@@ -133,6 +133,8 @@ impl Stand {
             block: &self.nodes,
             linear_constraints: None,
             bodies: &[],
+            bars: &[],
+            free_lengths: &[],
         }
     }
 

@@ -2,6 +2,7 @@
 
 use super::{Analysis, StepSize, Until};
 use crate::contact::Law;
+use crate::expression::Expression;
 use crate::gravity::Gravity;
 use crate::time_value::TimeValue;
 
@@ -24,6 +25,8 @@ pub struct Phase {
     pub absent: Vec<String>,
     /// Regions of soil that are removed as it begins.
     pub removed: Vec<String>,
+    /// Regions of soil that are filled as it begins, after that.
+    pub placed: Vec<String>,
     /// The materials that regions take as it begins.
     pub changes: Vec<Change>,
     /// The laws that contacts take as it begins.
@@ -67,6 +70,8 @@ pub struct Traction {
     pub force: Option<[TimeValue; 2]>,
     /// In fixed directions, per area of the undeformed curve.
     pub components: [LoadProfile; 2],
+    /// What of these is no profile over the depth; the component is zero then.
+    pub fields: [Option<LoadField>; 2],
     /// At right angles to the curve where it is, per area of it as it is.
     pub pressure: Option<LoadProfile>,
 }
@@ -75,7 +80,35 @@ impl Traction {
     /// All that varies in time.
     pub fn values(&self) -> impl Iterator<Item = &TimeValue> {
         let profiles = self.components.iter().chain(&self.pressure).flat_map(|load| [&load.top, &load.gradient]);
-        profiles.chain(self.force.iter().flatten())
+        let factors = self.fields.iter().flatten().filter_map(LoadField::factor);
+        profiles.chain(self.force.iter().flatten()).chain(factors)
+    }
+}
+
+/// A component of a traction (kPa) on a curve, by the place on the undeformed curve.
+#[derive(Clone, Debug, PartialEq)]
+pub enum LoadField {
+    Formula(Expression),
+    /// Linear between pairs of a coordinate (m), by the number of its axis, and a value, times a factor.
+    Along {
+        axis: usize,
+        values: Vec<[f64; 2]>,
+        factor: TimeValue,
+    },
+}
+
+impl LoadField {
+    /// The factor on a table.
+    pub fn factor(&self) -> Option<&TimeValue> {
+        match self {
+            Self::Formula(_) => None,
+            Self::Along { factor, .. } => Some(factor),
+        }
+    }
+
+    /// Whether it is a formula in time.
+    pub fn is_formula_in_time(&self) -> bool {
+        matches!(self, Self::Formula(formula) if formula.varies_in_time())
     }
 }
 

@@ -16,7 +16,7 @@ pub struct Output {
     pub fields: Option<Vec<Field>>,
     /// How the exported files are packed: compressed, or plain (larger, and what meshio reads). Default: compressed.
     pub encoding: Encoding,
-    /// Whether the surface of the material points is written. It always is where a load or water acts on it.
+    /// Whether the surface of the material points is written. It always is where a load or water acts on it, or a thickness is measured.
     pub surface: bool,
     /// Columns of history.csv, which has a row for each step.
     pub history: Vec<History>,
@@ -31,12 +31,14 @@ pub enum Field {
     Stress,
     MeanStress,
     DeviatoricStress,
+    Strain,
     PlasticStrain,
     DeformationGradient,
     PorePressure,
     Mass,
     InternalVariables,
     ShearStrength,
+    PlasticPoints,
 }
 
 impl Field {
@@ -48,12 +50,14 @@ impl Field {
             Self::Stress => "stress",
             Self::MeanStress => "mean_stress",
             Self::DeviatoricStress => "deviatoric_stress",
+            Self::Strain => "strain",
             Self::PlasticStrain => "plastic_strain",
             Self::DeformationGradient => "deformation_gradient",
             Self::PorePressure => "pore_pressure",
             Self::Mass => "mass",
             Self::InternalVariables => INTERNAL,
             Self::ShearStrength => "shear_strength",
+            Self::PlasticPoints => "plastic_points",
         }
     }
 }
@@ -73,15 +77,25 @@ pub enum Encoding {
 pub struct History {
     /// The name of the columns.
     pub name: String,
-    /// The name of a physical curve, a physical point, a region, a rigid structure or a wall.
-    pub on: String,
+    /// The name of a physical curve, a physical point, a region, a rigid structure, a wall or a bar.
+    pub on: Option<String>,
+    /// A point in the soil: x and y (m).
+    pub at: Option<[f64; 2]>,
+    /// Whether the entry is of the soil that was seeded `at` the point, wherever that goes. Default: false.
+    #[serde(default)]
+    pub follow: bool,
+    /// A box: x and y of its lower left corner, then of its upper right one (m).
+    pub r#box: Option<[f64; 4]>,
+    /// A line: x and y of one end, then of the other (m).
+    pub line: Option<[f64; 4]>,
     /// The quantities that are written of it.
     #[schemars(extend("minItems" = 1))]
     pub quantities: Vec<Quantity>,
 }
 
-/// A quantity of history.csv: means over the nodes of a curve or the points of a region, of a rigid structure those of its
-/// centroid; reactions are sums, contact is the force of all contacts on a structure; moments are about the centroid.
+/// A quantity of history.csv: means over the nodes of a curve, the points of a region or of a box, or a line; of a rigid structure those of its
+/// centroid; reactions, mass and volume are sums, contact is the force of all contacts on a structure; moments are about the centroid;
+/// normal and shear force and bending moment are those in the section of a plate where they are largest in amount.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
@@ -97,6 +111,28 @@ pub enum Quantity {
     ReactionMoment,
     ContactMoment,
     PorePressure,
+    StressXx,
+    StressYy,
+    StressZz,
+    StressXy,
+    MeanStress,
+    DeviatoricStress,
+    StrainXx,
+    StrainYy,
+    StrainZz,
+    StrainXy,
+    PlasticStrain,
+    Mass,
+    Volume,
+    XMin,
+    XMax,
+    YMin,
+    YMax,
+    Thickness,
+    NormalForce,
+    ShearForce,
+    BendingMoment,
+    Force,
 }
 
 impl From<Quantity> for run::Quantity {
@@ -114,6 +150,28 @@ impl From<Quantity> for run::Quantity {
             Quantity::ReactionMoment => Self::ReactionMoment,
             Quantity::ContactMoment => Self::ContactMoment,
             Quantity::PorePressure => Self::PorePressure,
+            Quantity::StressXx => Self::Stress(0),
+            Quantity::StressYy => Self::Stress(1),
+            Quantity::StressZz => Self::Stress(2),
+            Quantity::StressXy => Self::Stress(3),
+            Quantity::MeanStress => Self::MeanStress,
+            Quantity::DeviatoricStress => Self::DeviatoricStress,
+            Quantity::StrainXx => Self::Strain(0),
+            Quantity::StrainYy => Self::Strain(1),
+            Quantity::StrainZz => Self::Strain(2),
+            Quantity::StrainXy => Self::Strain(3),
+            Quantity::PlasticStrain => Self::PlasticStrain,
+            Quantity::Mass => Self::Mass,
+            Quantity::Volume => Self::Volume,
+            Quantity::XMin => Self::Least(0),
+            Quantity::XMax => Self::Most(0),
+            Quantity::YMin => Self::Least(1),
+            Quantity::YMax => Self::Most(1),
+            Quantity::Thickness => Self::Thickness,
+            Quantity::Force => Self::BarForce,
+            Quantity::NormalForce => Self::Section(run::Force::Normal),
+            Quantity::ShearForce => Self::Section(run::Force::Shear),
+            Quantity::BendingMoment => Self::Section(run::Force::Moment),
         }
     }
 }

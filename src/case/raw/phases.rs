@@ -1,6 +1,6 @@
 //! Phases as they are written: steps, motions, loads, and what ends a phase.
 
-use super::{Profile, Quantity, Tension, WaterTable};
+use super::{Axis, Profile, Quantity, Tension, WaterTable};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -42,6 +42,10 @@ pub struct Phase {
     /// until the end of the phase.
     #[serde(default)]
     pub remove: Vec<String>,
+    /// Regions of kind mpm that are filled as the phase begins, without stress: a list, or the material of each by its name. Without a `remove`
+    /// before, they are empty until then. In phases without inertia their weight comes evenly until the end of the phase.
+    #[serde(default)]
+    pub place: Placed,
     /// The materials that regions take as the phase begins, by the names of the regions. Stress is kept.
     #[serde(default)]
     pub materials: BTreeMap<String, String>,
@@ -56,6 +60,45 @@ pub struct Phase {
     pub until: Vec<Until>,
     /// Factor that the strengths of soil and contacts are divided by, above 0 (-). Default: 1; in a strength_reduction phase 1 plus the time.
     pub strength_reduction: Option<InTime>,
+}
+
+/// Regions that are filled: with the material that they have, or each with one by name.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum Placed {
+    Kept(Vec<String>),
+    With(BTreeMap<String, String>),
+}
+
+impl Default for Placed {
+    fn default() -> Self {
+        Self::Kept(Vec::new())
+    }
+}
+
+impl Placed {
+    /// The regions, each with the material that it takes, if one is named.
+    pub fn entries(&self) -> impl Iterator<Item = (&String, Option<&String>)> {
+        let (kept, with) = match self {
+            Self::Kept(names) => (Some(names), None),
+            Self::With(materials) => (None, Some(materials)),
+        };
+        let kept = kept.into_iter().flatten().map(|name| (name, None));
+        kept.chain(with.into_iter().flatten().map(|(name, material)| (name, Some(material))))
+    }
+
+    /// The regions.
+    pub fn names(&self) -> impl Iterator<Item = &String> {
+        self.entries().map(|(name, _)| name)
+    }
+}
+
+impl Phase {
+    /// The materials that regions take, by their names.
+    pub fn assigned(&self) -> impl Iterator<Item = (&String, &String)> {
+        let placed = self.place.entries().filter_map(|(name, material)| Some((name, material?)));
+        self.materials.iter().chain(placed)
+    }
 }
 
 /// Settings of a contact from a phase on.
@@ -205,9 +248,9 @@ pub struct Traction {
     pub on: Option<String>,
     /// In place of a curve, the surface of the material points of a region, by its name, or of `all`: per area of the present surface.
     pub surface: Option<String>,
-    /// Horizontal (in axisymmetry radial) traction; on a curve it may vary with depth (kPa).
+    /// Horizontal (in axisymmetry radial) traction; on a curve it may vary with depth, along the curve or by a formula (kPa).
     pub tx: Option<Load>,
-    /// Vertical traction, positive upwards; on a curve it may vary with depth (kPa).
+    /// Vertical traction, positive upwards; on a curve it may vary with depth, along the curve or by a formula (kPa).
     pub ty: Option<Load>,
     /// Horizontal (in axisymmetry radial) force at a point, per metre out of the plane or in axisymmetry of the whole turn (kN).
     pub fx: Option<InTime>,
@@ -217,19 +260,32 @@ pub struct Traction {
     pub pressure: Option<Load>,
     /// Traction along a surface, positive in the direction that has the soil on its left (kPa).
     pub shear: Option<InTime>,
-    /// Factor on the profiles of the load (-). Default: 1.
+    /// Factor on the profiles and tables of the load (-). Default: 1.
     pub factor: Option<InTime>,
     /// The part of a surface that is loaded. Default: all of it.
     #[serde(rename = "where")]
     pub within: Option<Window>,
 }
 
-/// A number in time, or one that grows with depth.
+/// A number in time, one that grows with depth, a formula of x, y and t, or a table along a curve.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Load {
     InTime(InTime),
     Profile(Profile),
+    Formula(String),
+    Along(Along),
+}
+
+/// A load that is linear between places of a curve, and constant before the first and after the last.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Along {
+    /// The coordinate along which it varies, x or y.
+    pub along: Axis,
+    /// Pairs [coordinate (m), value], coordinates growing.
+    #[schemars(extend("minItems" = 1))]
+    pub values: Vec<[f64; 2]>,
 }
 
 /// A box, fixed in space.

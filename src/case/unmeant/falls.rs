@@ -21,7 +21,7 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
     let Some(soil) = around(&|content| matches!(content, Content::Mpm { .. })) else { return Vec::new() };
     let free = around(&|content| matches!(content, Content::Buffer));
     let mut warnings = Vec::new();
-    for region in &case.regions {
+    for region in case.regions.iter().filter(|region| !case.comes_later(&region.name)) {
         let of_it = |c: &usize| mesh.regions[usize::from(mesh.cells.region[*c])] == region.name;
         let body = mesh.part(|c| of_it(&c));
         let Some(own) = bounds(&body) else { continue };

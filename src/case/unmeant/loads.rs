@@ -60,7 +60,10 @@ pub fn on_mesh(case: &Case, mesh: &Mesh<2>) -> Vec<String> {
                     phase.name
                 ));
             }
-            let acts = |d: usize| [&load.components[d].top, &load.components[d].gradient].iter().any(|v| !v.is_zero());
+            let acts = |d: usize| {
+                let LoadProfile { top, gradient, .. } = &load.components[d];
+                [top, gradient].iter().any(|value| !value.is_zero()) || load.fields[d].is_some()
+            };
             for d in (0..2).filter(|&d| held[d] && acts(d)) {
                 let name = &load.curve;
                 warnings.push(format!(
@@ -140,7 +143,9 @@ fn of_curve(load: &Traction) -> Vec<(String, &TimeValue)> {
     let name = |key: &str| format!("`{key}` of the traction on `{}`", load.curve);
     let keys = [("tx", &load.components[0]), ("ty", &load.components[1])];
     let loads = keys.into_iter().chain(load.pressure.iter().map(|pressure| ("pressure", pressure)));
-    loads.map(|(key, load)| (name(key), largest(load))).collect()
+    let factors =
+        ["tx", "ty"].into_iter().zip(&load.fields).filter_map(|(key, field)| Some((key, field.as_ref()?.factor()?)));
+    loads.map(|(key, load)| (key, largest(load))).chain(factors).map(|(key, value)| (name(key), value)).collect()
 }
 
 /// What varies of a load: both parts of a profile do, by the same factor.

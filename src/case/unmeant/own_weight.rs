@@ -76,7 +76,7 @@ fn ends<'a>(places: impl Iterator<Item = &'a Place>) -> [f64; 2] {
 fn soil<'a>(case: &'a Case, region: &str) -> Option<&'a Material> {
     let content = case.content(region)?;
     let is_soil = matches!(content, Content::Mpm { .. } | Content::Fem { .. });
-    content.material().filter(|_| is_soil).map(|material| &case.materials[material])
+    content.material().filter(|_| is_soil && !case.comes_later(region)).map(|material| &case.materials[material])
 }
 
 #[cfg(test)]

@@ -30,7 +30,7 @@ macro_rules! template {
 }
 
 /// All of them, as they are listed.
-pub const TEMPLATES: [Template; 9] = [
+pub const TEMPLATES: [Template; 12] = [
     template!("footing", "a strip or circular footing on clay, loaded to its limit"),
     template!("penetration", "a round bar, a flat strip or a thin wall pushed deep into clay"),
     template!("anchor", "a plate anchor pulled up in clay"),
@@ -40,6 +40,9 @@ pub const TEMPLATES: [Template; 9] = [
     template!("silo", "a silo of dry sand: filled, opened and emptied"),
     template!("impact", "a body that falls on clay: a penetrometer, an anchor or a block"),
     template!("wall", "a wall pushed into sand, or moved away from it"),
+    template!("excavation", "a pit beside an anchored wall in sand, dug in stages"),
+    template!("embankment", "an embankment in lifts on soft clay, which consolidates between them"),
+    template!("cpt", "a cone penetrometer pushed into clay"),
 ];
 
 /// The `Makefile` of every template.

@@ -2,7 +2,7 @@
 
 use crate::case;
 use crate::cli::print::{Outcome, note, print};
-use crate::draw::curves::{Charts, Mark, Series, Style};
+use crate::draw::curves::{Chart, Charts, Mark, Series, Style};
 use crate::draw::history::{self, Run, Shown, TIME};
 use crate::draw::{self, Format, INK};
 use crate::error::{Error, Result, shown};
@@ -31,8 +31,17 @@ pub struct Args {
     /// A horizontal line at a value, or NAME=VALUE
     #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     line: Vec<String>,
+    /// The name of a curve in the legend, one for each curve in their order
+    #[arg(long, value_name = "TEXT")]
+    label: Vec<String>,
+    /// Axes with logarithms: x, y or xy
+    #[arg(long, value_name = "AXES", value_parser = ["x", "y", "xy"])]
+    log: Option<String>,
+    /// Let the vertical axis grow downwards, as for a depth
+    #[arg(long)]
+    down: bool,
     /// Iterations, sizes and halvings of the steps over time, in place of the history
-    #[arg(long, conflicts_with_all = ["x", "y", "scale_x", "scale_y", "reference", "line"])]
+    #[arg(long, conflicts_with_all = ["x", "y", "scale_x", "scale_y", "reference", "line", "label", "log", "down"])]
     pub iterations: bool,
     /// Columns of the balance of energy (energy.csv) in place of the history [default: all that are not zero, over time]
     #[arg(long, conflicts_with = "iterations")]
@@ -46,6 +55,33 @@ pub struct Args {
     /// List the columns, with their ranges, and draw nothing
     #[arg(long)]
     pub list: bool,
+}
+
+impl Args {
+    /// The first option that only curves have, if one is given.
+    pub fn first_given(&self) -> Option<&'static str> {
+        let given = [
+            (self.x.is_some(), "--x"),
+            (!self.y.is_empty(), "--y"),
+            (self.scale_x != 1.0, "--scale-x"),
+            (self.scale_y != 1.0, "--scale-y"),
+            (self.iterations, "--iterations"),
+            (self.energy, "--energy"),
+            (self.distribution, "--distribution"),
+            (self.list, "--list"),
+            (!self.reference.is_empty(), "--reference"),
+            (!self.line.is_empty(), "--line"),
+            (!self.label.is_empty(), "--label"),
+            (self.log.is_some(), "--log"),
+            (self.down, "--down"),
+        ];
+        given.into_iter().find(|(given, _)| *given).map(|(_, name)| name)
+    }
+
+    /// The same of those that a curve along a line has not.
+    pub fn first_of_histories(&self) -> Option<&'static str> {
+        self.first_given().filter(|name| !["--reference", "--line", "--label", "--log", "--down"].contains(name))
+    }
 }
 
 pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bool) -> Outcome {
@@ -70,7 +106,7 @@ pub fn run(cases: &[PathBuf], output: Option<&Path>, args: &Args, unfinished: bo
         let problem = if args.iterations { "no step has converged" } else { "the history has no quantities to draw" };
         return Err(Error::input(place, problem, "let `output.history` of the case name some, and solve it").into());
     }
-    compare(&mut charts, args)?;
+    finish(&mut charts, args)?;
     let one = |values: Vec<Option<&String>>| match &values[..] {
         [value] => value.cloned(),
         [first, rest @ ..] if rest.iter().all(|value| value == first) => first.cloned(),
@@ -146,7 +182,7 @@ pub fn range(values: impl Iterator<Item = f64>) -> Option<String> {
     range.map(|[low, high]| format!("{low} … {high}"))
 }
 
-fn charts(runs: &[Run], args: &Args) -> Result<Vec<draw::curves::Chart>> {
+fn charts(runs: &[Run], args: &Args) -> Result<Vec<Chart>> {
     if args.iterations {
         return Ok(history::work(runs));
     }
@@ -193,8 +229,38 @@ pub fn near(name: &str, names: &[&str]) -> String {
     format!("near to it are {}; `--list` lists all", names.join(", "))
 }
 
+/// Names the curves, sets the axes, and adds the values to compare with.
+pub fn finish(charts: &mut [Chart], args: &Args) -> Result<()> {
+    let count: usize = charts.iter().map(|chart| chart.series.len()).sum();
+    if !args.label.is_empty() && args.label.len() != count {
+        let problem = format!("there are {} names for {count} curves", args.label.len());
+        return Err(Error::input("--label", problem, "give one for each curve, or none"));
+    }
+    for (series, label) in charts.iter_mut().flat_map(|chart| &mut chart.series).zip(&args.label) {
+        series.name.clone_from(label);
+    }
+    compare(charts, args)?;
+    let log = ["x", "y"].map(|axis| args.log.as_ref().is_some_and(|axes| axes.contains(axis)));
+    let mut left_out = 0;
+    for chart in charts {
+        (chart.log, chart.down, chart.named) = (log, args.down, !args.label.is_empty());
+        let lacks = |place: &&[f64; 2]| (0..2).any(|d| log[d] && place[d] <= 0.0);
+        let places = || chart.series.iter().flat_map(|series| &series.places);
+        let lacking = places().filter(lacks).count();
+        if lacking > 0 && lacking == places().count() {
+            let remedy = "take `--log` out, or turn the sign with --scale-x or --scale-y -1";
+            return Err(Error::input("--log", "no value is positive, as a logarithm needs", remedy));
+        }
+        left_out += lacking;
+    }
+    if left_out > 0 {
+        note(&format!("note: {left_out} places are left out: they have no logarithm, as they are not positive"));
+    }
+    Ok(())
+}
+
 /// Adds the values to compare with.
-pub fn compare(charts: &mut [draw::curves::Chart], args: &Args) -> Result<()> {
+fn compare(charts: &mut [Chart], args: &Args) -> Result<()> {
     if args.reference.is_empty() && args.line.is_empty() {
         return Ok(());
     }

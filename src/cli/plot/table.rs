@@ -1,6 +1,6 @@
 //! Curves of the table of a sweep: a quantity over a parameter, or how it is distributed over the runs.
 
-use super::curves::{Args, compare, listed, near, range};
+use super::curves::{Args, finish, listed, near, range};
 use crate::cli::print::{Outcome, print};
 use crate::draw::curves::{Chart, Charts, Series, Style, of_unit};
 use crate::draw::history::Shown;
@@ -47,7 +47,7 @@ pub fn run(path: &Path, output: Option<&Path>, args: &Args) -> Outcome {
         };
         return Err(Error::input(path.display(), problem, "choose others; `--list` lists them").into());
     }
-    compare(&mut charts, args)?;
+    finish(&mut charts, args)?;
     let remark = match table.unfinished() {
         0 => String::new(),
         count => format!("{count} of {} runs are not finished", table.rows.len()),

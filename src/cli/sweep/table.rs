@@ -81,7 +81,10 @@ pub fn csv(axes: &[Axis], rows: &[Row]) -> Result<Vec<u8>> {
     for Row { run, state, history } in rows {
         let values =
             |name: &str| history.columns.iter().find(|column| column.name == name).map(|column| &column.values);
-        let text = |number: Option<f64>| number.map_or_else(String::new, |number| format!("{number:?}"));
+        let text = |number: Option<f64>| {
+            let known = number.filter(|number| !number.is_nan());
+            known.map_or_else(String::new, |number| format!("{number:?}"))
+        };
         let mut line = vec![run.name.clone()];
         line.extend(run.values.iter().cloned());
         line.extend([state.clone(), text(values(TIME).and_then(|times| times.last().copied()))]);

@@ -1,5 +1,6 @@
 use super::*;
 use crate::draw::{png, svg};
+use crate::io::vtu::Grid;
 use crate::io::vtu::Topology;
 
 fn grid(points: &[[f64; 2]], cells: &[[i64; 3]], region: u16, arrays: Vec<Array>) -> Grid {
@@ -20,6 +21,22 @@ fn array(name: &str, components: usize, values: Vec<f64>) -> Array {
     Array { name: name.into(), components, data: Data::F64(values) }
 }
 
+/// Points of the block with a displacement to the right, uniaxial compression of the left half and tension of the right one, and one point at yield.
+fn points() -> Grid {
+    let places: Vec<[f64; 2]> =
+        (0..32).map(|i| [0.25 + 0.5 * f64::from(i % 8), 0.25 + 0.5 * f64::from(i / 8)]).collect();
+    let stress = |x: &[f64; 2]| if x[0] < 2.0 { -30.0 } else { 10.0 };
+    let stresses = places.iter().flat_map(|x| [0.0, stress(x), 0.0, 0.0, 0.0, 0.0]).collect();
+    let mut plastic = vec![0.0; 32];
+    (plastic[5], plastic[9]) = (1.0, 2.0);
+    let fields = vec![
+        array("displacement [m]", 3, [0.2, 0.0, 0.0].repeat(32)),
+        array("stress [kPa]", 6, stresses),
+        array("plastic_points [-]", 1, plastic),
+    ];
+    grid(&places, &[], 0, fields)
+}
+
 /// A block of soil of 4 by 2 with a structure of 1 by 1 on it, and stress `σ_yy = y`.
 fn shown() -> Shown {
     let block = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]];
@@ -33,12 +50,14 @@ fn shown() -> Shown {
         array("plastic_strain [-]", 1, vec![0.0; 4]),
     ];
     Shown {
-        points: Grid::default(),
+        points: points(),
         grid: grid(&block, &cells, 0, Vec::new()),
         soil: Some(grid(&block, &cells, 0, fields)),
         structures: Some(grid(&above, &cells, 1, Vec::new())),
         contact: None,
         surface: None,
+        plates: None,
+        sections: Vec::new(),
     }
 }
 
@@ -49,7 +68,7 @@ fn field(name: &str, options: Options) -> Result<Field> {
 /// The part of the window that soil and structures cover.
 fn covered(field: &Field) -> [f64; 2] {
     let (mut raster, paper) = (field.painted(crate::draw::PIXELS), field.paper());
-    raster.within([LEFT, ABOVE], [LEFT + paper.size[0], ABOVE + paper.size[1]]);
+    raster.within([LEFT, paper.above], [LEFT + paper.size[0], paper.above + paper.size[1]]);
     [raster.part(|of| of > 0 && of < STRUCTURES), raster.part(|of| of >= STRUCTURES)]
 }
 
@@ -144,4 +163,73 @@ fn an_animation_has_all_frames() {
         frames += 1;
     }
     assert_eq!(frames, 3);
+}
+
+#[test]
+fn no_title_is_cut_or_lies_on_another() {
+    let title = "A block with a title that is so long that it has to be broken into lines, and then once more, phase push, t = 1 s";
+    for width in [400, 1600] {
+        let options = Options { width: Some(width), ..Options::default() };
+        let field =
+            Field::of(&shown(), &[true, false], &Asked::of("displacement.x"), title.to_owned(), options).unwrap();
+        let lines = field.lines();
+        assert_eq!(lines.join(" "), title);
+        let room = f64::from(width) / 2.0 - LEFT - 6.0;
+        assert!(lines.iter().all(|line| crate::draw::width(line, TITLE) <= room), "{lines:?}");
+        assert_eq!(field.paper().above, ABOVE + LINE * lines.len() as f64);
+    }
+    assert_eq!(field("stress.yy", Options::default()).unwrap().title_lines(), 1);
+}
+
+#[test]
+fn arrows_crosses_and_points_that_yield_have_a_legend() {
+    let options = Options {
+        arrows: Some("displacement".into()),
+        crosses: true,
+        plastic_points: true,
+        width: Some(800),
+        ..Options::default()
+    };
+    let needed: Vec<String> = options.needs().collect();
+    assert_eq!(needed, ["displacement", "stress", "plastic_points"]);
+    let overlaid = field("stress.yy", options).unwrap();
+    let text = svg(&overlaid).unwrap();
+    for legend in ["displacement 0.2 m", "compression 20 kPa", "tension 20 kPa", "at yield", "at a limit of tension"] {
+        assert!(text.contains(legend), "{legend}: {text}");
+    }
+    let plain = field("stress.yy", Options { width: Some(800), ..Options::default() }).unwrap();
+    assert!(!svg(&plain).unwrap().contains("at yield"));
+    assert_eq!(overlaid.size()[1] - plain.size()[1], LEGEND as u32);
+    // The pixel of the point at yield, seen from both sides.
+    let colour = |field: &Field, x: [f64; 2]| {
+        let ([w, _], pixels) = crate::draw::pixels(field).unwrap();
+        let at = field.paper().at(x).map(|p| (p * f64::from(crate::draw::PIXELS)) as usize);
+        let first = 3 * (at[1] * w as usize + at[0]);
+        [pixels[first], pixels[first + 1], pixels[first + 2]]
+    };
+    let alone = Options { plastic_points: true, mirror: true, width: Some(800), ..Options::default() };
+    let alone = field("stress.yy", alone).unwrap();
+    assert_eq!([2.75, -2.75].map(|x| colour(&alone, [x, 0.25])), [[200, 30, 30]; 2]);
+    assert_eq!(colour(&alone, [0.75, 0.75]), [255, 255, 255]);
+}
+
+#[test]
+fn contours_and_a_net_are_dark_and_regions_are_hidden() {
+    let dark = |options: Options| {
+        let field = field("stress.yy", Options { width: Some(800), ..options }).unwrap();
+        let (raster, paper) = (field.painted(2), field.paper());
+        let pixels = raster.pixels();
+        let width = field.size()[0] as usize * 2;
+        let [x, y] = paper.at([0.02, 2.0]).map(|v| (2.0 * v) as usize);
+        let rows = y..paper.at([0.02, 0.0]).map(|v| (2.0 * v) as usize)[1];
+        let at =
+            |row: usize| usize::from(pixels[3 * (row * width + x)]) + usize::from(pixels[3 * (row * width + x) + 1]);
+        // Going down a column of pixels, lines are where it gets much darker.
+        rows.collect::<Vec<_>>().windows(4).filter(|rows| at(rows[0]) > at(rows[3]) + 60).count()
+    };
+    let plain = dark(Options::default());
+    assert!(dark(Options { contours: true, ..Options::default() }) > plain);
+    assert!(dark(Options { net: Some(0.25), ..Options::default() }) > plain);
+    let hidden = field("stress.yy", Options { hidden: vec![1], ..Options::default() }).unwrap();
+    assert_eq!(hidden.bounds(), [0.0, 0.0, 4.0, 2.0]);
 }

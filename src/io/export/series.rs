@@ -2,12 +2,14 @@
 
 use super::fields::{column, select};
 use super::pieces::Piece;
+use super::plates::{self, Plate};
 use super::soil::Bodies;
-use super::{CONTACT, Regions, SOIL, STRUCTURES, SURFACE, contact, surface};
+use super::{CONTACT, PLATES, Regions, SOIL, STRUCTURES, SURFACE, contact, surface};
 use crate::error::{Error, Result};
 use crate::io::frame::{self, Frame, Info, Part, triples};
 use crate::io::vtu::{Grid, Topology};
 use crate::mesh::Mesh;
+use crate::mesh::sections::Section;
 use std::borrow::Cow;
 use std::path::Path;
 
@@ -19,7 +21,10 @@ pub struct Series<'a> {
     background: Piece,
     structures: Piece,
     with_elements: bool,
-    bodies: Option<Bodies<'a>>,
+    pub(super) bodies: Option<Bodies<'a>>,
+    /// Those of a case whose frames have the stress.
+    pub plates: Vec<Plate>,
+    axisymmetric: bool,
 }
 
 /// What is to be seen of a frame; what a case has not is absent.
@@ -30,6 +35,9 @@ pub struct Shown {
     pub structures: Option<Grid>,
     pub contact: Option<Grid>,
     pub surface: Option<Grid>,
+    pub plates: Option<Grid>,
+    /// The sections of each plate.
+    pub sections: Vec<Vec<Section>>,
 }
 
 impl<'a> Series<'a> {
@@ -48,7 +56,9 @@ impl<'a> Series<'a> {
             (Piece::whole(mesh), Piece::default())
         };
         let bodies = Bodies::new(mesh, regions, (&structures, &elements.cells.kind), &infos)?;
-        Ok(Self { infos, first: triples(&mesh.nodes), background, structures, with_elements, bodies })
+        let plates = plates::plates(&elements, &regions.plates);
+        let (first, axisymmetric) = (triples(&mesh.nodes), regions.axisymmetric);
+        Ok(Self { infos, first, background, structures, with_elements, bodies, plates, axisymmetric })
     }
 
     /// Whether there is a series of this name.
@@ -57,6 +67,7 @@ impl<'a> Series<'a> {
             SOIL => self.bodies.is_some(),
             STRUCTURES => self.with_elements,
             CONTACT => self.infos.iter().any(|info| info.contact > 0),
+            PLATES => !self.plates.is_empty(),
             SURFACE => self.infos.iter().any(|info| info.surface > 0),
             _ => true,
         }
@@ -83,6 +94,18 @@ impl<'a> Series<'a> {
             let problem = format!("has not the {count} nodes and the cells of the mesh");
             return Err(wrong(problem, "the mesh was made again after the run: run `mpm solve` again"));
         };
+        let places = [&self.first[..], &from, &grid.position];
+        let sections = if self.plates.is_empty() {
+            Vec::new()
+        } else {
+            let found = plates::of_frame(&self.plates, places, &elements, self.axisymmetric);
+            found.ok_or_else(|| {
+                wrong(
+                    "has no stress, of which the forces in plates are made".into(),
+                    "name `stress` in `output.fields`, and run `mpm solve` again",
+                )
+            })?
+        };
         let soil = self.bodies.as_ref();
         let soil = soil.map(|bodies| bodies.grid(i, info, &points, &grid.position, &smooth, fields)).transpose()?;
         let lines = |name: &str, lines: Option<Grid>, what: &str| match lines {
@@ -98,6 +121,8 @@ impl<'a> Series<'a> {
             soil,
             structures: self.with_elements.then(|| self.structures.grid(&smooth, fields, time)),
             contact: lines(CONTACT, contact::grid(&contact, time), "boundaries in contact")?,
+            plates: self.has(PLATES).then(|| plates::grid(&self.plates, &sections, time)),
+            sections,
             surface: lines(SURFACE, surface::lines(&surface, time), "loops of the surface")?,
             points: Grid {
                 point_data: select(&points, fields),
@@ -119,7 +144,7 @@ pub fn counted_from<'a>(grid: &mut Part, first: &'a [[f64; 3]]) -> Cow<'a, [[f64
 }
 
 /// Every field must be somewhere in the frame.
-fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
+pub fn check_fields(path: &Path, frame: &Frame, fields: &[String]) -> Result<()> {
     let parts = [&frame.points, &frame.grid, &frame.elements];
     let has = |name: &str| parts.iter().any(|part| column(part, name).is_some());
     let given = |name: &String| parts.iter().any(|part| !select(part, std::slice::from_ref(name)).is_empty());

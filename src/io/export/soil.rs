@@ -9,7 +9,7 @@ use super::pieces::Piece;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::shape::CellKind;
-use crate::soil::{Body, Cloud, Soil, Values};
+use crate::soil::{Body, Cloud, Probe, Soil, Values};
 use crate::surface::triangles;
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -84,6 +84,28 @@ impl<'a> Bodies<'a> {
         Traced { position, origin }
     }
 
+    /// The points of frame `index` to look values up among, each with the region that it was seeded in; one seeded nowhere is of none.
+    ///
+    /// # Errors
+    /// As [`Bodies::grid`].
+    pub fn probe(&self, index: usize, info: &Info, points: &Part) -> Result<Probe> {
+        let [way, volume] = [(DISPLACEMENT, 3), (VOLUME, 1)].map(|(name, k)| needed(info, points, name, k));
+        let traced = self.traced(index, points, way?);
+        let area = self.areas(volume?, &traced.position);
+        let region = traced.origin.iter().map(|x| self.soil.seeded_region(x).unwrap_or(u16::MAX)).collect();
+        Ok(Probe::new(traced.position, &area, region))
+    }
+
+    /// The area (m²) of points in the plane. In axisymmetry the volume is that of a ring; a point on the axis has none.
+    fn areas(&self, volume: &[f64], position: &[[f64; 2]]) -> Vec<f64> {
+        let area = |(volume, x): (&f64, &[f64; 2])| match self.regions.axisymmetric {
+            true if x[0] > 0.0 => volume / (TAU * x[0]),
+            true => 0.0,
+            false => *volume,
+        };
+        volume.iter().zip(position).map(area).collect()
+    }
+
     /// The soil of frame `index`, with its grid at `nodes` (m) and the finite elements in `smooth`.
     ///
     /// # Errors
@@ -116,16 +138,10 @@ impl<'a> Bodies<'a> {
         let stands =
             |region: u16| !self.regions.soil[region as usize] && !absent.is_some_and(|absent| absent.contains(&region));
         let standing: Vec<[u32; 3]> = self.elements.iter().filter(|(_, r)| stands(*r)).map(|(t, _)| *t).collect();
-        // In axisymmetry the volume is that of a ring; a point on the axis has none.
-        let area = |(volume, x): (&f64, &[f64; 2])| match self.regions.axisymmetric {
-            true if x[0] > 0.0 => volume / (TAU * x[0]),
-            true => 0.0,
-            false => *volume,
-        };
-        let area: Vec<f64> = volume.iter().zip(&traced.position).map(area).collect();
+        let area = self.areas(volume, &traced.position);
         let Traced { position, origin } = &traced;
         let cloud = Cloud { position, origin, area: &area, values: Values { width, of: &of } };
-        let left = self.regions.removes.then(|| self.soil.left(origin)).flatten();
+        let left = self.regions.changes.then(|| self.soil.left(origin)).flatten();
         let body = left.as_ref().unwrap_or(&self.soil).body(&nodes, cloud, (&places, &standing));
         let elements: Vec<&([u32; 3], u16)> =
             self.elements.iter().filter(|(_, r)| self.regions.soil[*r as usize]).collect();
@@ -152,7 +168,7 @@ fn needed<'a>(info: &Info, points: &'a Part, name: &str, components: usize) -> R
 }
 
 /// The fields with those that are seen together with the stress.
-fn with_invariants(fields: &[String]) -> Vec<String> {
+pub fn with_invariants(fields: &[String]) -> Vec<String> {
     let mut all = fields.to_vec();
     if fields.iter().any(|field| field == "stress") {
         let more =
@@ -162,7 +178,7 @@ fn with_invariants(fields: &[String]) -> Vec<String> {
     all
 }
 
-fn numbers(array: &Array) -> &[f64] {
+pub fn numbers(array: &Array) -> &[f64] {
     match &array.data {
         Data::F64(values) => values,
         _ => &[],

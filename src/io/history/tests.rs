@@ -9,7 +9,8 @@ fn columns() -> Vec<String> {
 #[test]
 fn a_resumed_history_is_the_undisturbed_one() {
     let folder = tempfile::tempdir().unwrap();
-    let rows: Vec<[f64; 2]> = (0..20).map(|i| [f64::from(i) * 0.1, -1e-300 * f64::from(i)]).collect();
+    let place = |i: u32| if i == 12 { None } else { Some(-1e-300 * f64::from(i)) };
+    let rows: Vec<[Option<f64>; 2]> = (0..20).map(|i| [Some(f64::from(i) * 0.1), place(i)]).collect();
     let whole = folder.path().join("whole.csv");
     let mut history = History::create(&whole, &columns()).unwrap();
     rows.iter().for_each(|row| history.row(row).unwrap());
@@ -39,7 +40,7 @@ fn what_cannot_be_resumed_is_an_error() {
     let path = folder.path().join("history.csv");
     assert_eq!(History::resume(&path, &columns(), Mark::default()).unwrap_err().kind, Kind::Input);
     let mut history = History::create(&path, &columns()).unwrap();
-    history.row(&[1.0, 2.0]).unwrap();
+    history.row(&[1.0, 2.0].map(Some)).unwrap();
     let mark = history.mark();
     drop(history);
     for lines in [3, u64::MAX] {
@@ -57,7 +58,7 @@ fn rows_that_were_changed_are_not_kept() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("history.csv");
     let mut history = History::create(&path, &columns()).unwrap();
-    (0..4).for_each(|i| history.row(&[f64::from(i), 2.5]).unwrap());
+    (0..4).for_each(|i| history.row(&[f64::from(i), 2.5].map(Some)).unwrap());
     let mark = history.mark();
     drop(history);
     let whole = fs::read(&path).unwrap();
@@ -90,7 +91,7 @@ fn a_number_that_is_not_finite_names_its_column() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("history.csv");
     let mut history = History::create(&path, &columns()).unwrap();
-    let e = history.row(&[0.0, f64::NAN]).unwrap_err();
+    let e = history.row(&[0.0, f64::NAN].map(Some)).unwrap_err();
     assert!(e.kind == Kind::Analysis && e.to_string().contains(".uy [m]`: the value is NaN"), "{e}");
     assert_eq!(history.mark().lines, 1);
 }

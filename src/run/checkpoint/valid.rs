@@ -89,6 +89,7 @@ fn check_fields<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()
     let begun_search = !state.search_curve.is_empty();
     exact(&state.search_geometry, begun_search, "search_geometry")?;
     ensure(searches || !begun_search, "its search for failure")?;
+    ensure(state.free_lengths.len() == scene.bars.len(), "its bars")?;
     exact(&state.velocity, state.moving, "velocity")?;
     exact(&state.acceleration, state.moving, "acceleration")?;
     let moved = scene.fem.is_some() || !scene.bodies.is_empty();
@@ -126,7 +127,7 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
 
 fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
     check_family(scene, state, &scene.mesh, &first.points, &state.points)?;
-    if state.weights.samples.is_some() {
+    if state.weights.samples.is_some() || scene.touched(state.phase, state.phase_time).contains(&true) {
         check_sums(scene, state, &first.points, &state.points)?;
     } else {
         check_kept(scene, state, &first.points, &state.points)?;
@@ -160,7 +161,8 @@ fn check_kept<const D: usize>(scene: &Scene<D>, state: &State<D>, first: &Points
     ensure((0..points.len()).all(|p| points.mass[p] == first.mass[p] || changed(p)), "the mass of a point")
 }
 
-/// The volume when seeded and the mass of the material points of each region, which may have been split and merged.
+/// The volume when seeded and the mass of the material points of each region, which may have been split and merged, where phases have not
+/// removed or placed any.
 fn check_sums<const D: usize>(scene: &Scene<D>, state: &State<D>, first: &Points<D>, points: &Points<D>) -> Result<()> {
     let changes: Vec<_> = begun(scene, state).flat_map(|phase| &phase.changes).map(|change| change.region).collect();
     let sums = |points: &Points<D>| {
@@ -172,9 +174,11 @@ fn check_sums<const D: usize>(scene: &Scene<D>, state: &State<D>, first: &Points
         }
         sums
     };
+    let touched = scene.touched(state.phase, state.phase_time);
     let close = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING * b;
-    let (now, then) = (sums(points).concat(), sums(first).concat());
-    ensure(now.iter().zip(&then).all(close), "the volume or the mass of a region")
+    let all = sums(points).into_iter().zip(sums(first)).zip(touched);
+    let mut kept = all.filter(|(_, touched)| !touched).map(|(sums, _)| sums);
+    ensure(kept.all(|(now, then)| now.iter().zip(&then).all(close)), "the volume or the mass of a region")
 }
 
 /// Points against those that the run began with: their columns and materials.

@@ -199,7 +199,7 @@ pub const MEANING: &[Broken] = &[
     ),
     check(Case("every: 0.5", "every: 0"), &["case.yaml:25", "output.every", "above 0"]),
     check(Case("[stress, displacement]", "[stress, stress]"), &["case.yaml:26", "named twice"]),
-    check(Case("[stress, displacement]", "[strain]"), &["case.yaml:26", "`strain`"]),
+    check(Case("[stress, displacement]", "[strains]"), &["case.yaml:26", "`strains`"]),
     check(Case("[uy, reaction_y]", "[]"), &["case.yaml:28", "0 items", "at least 1"]),
     check(Case("[uy, reaction_y]", "[uz]"), &["case.yaml:28", "`uz`", "choose from `ux`"]),
     check(

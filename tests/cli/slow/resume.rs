@@ -198,6 +198,28 @@ const FLOW: Case = Case {
 /// Water that leaves a surface beside a strip that covers a part of it.
 const STRIP: Case = Case { file: "tests/data/strip", overrides: &["phases.wait.step.initial=40"] };
 
+/// Lifts that come on clay with water, which consolidates between them.
+const LIFTS: Case = Case {
+    file: "docs/examples/embankment",
+    overrides: &[
+        "mesh.parameters.h=1",
+        "phases[0].step.initial=0.1",
+        "phases[2].step.initial=0.1",
+        "phases[4].step.initial=0.1",
+    ],
+};
+
+/// A pit that is dug, and refilled with other soil.
+const PIT: Case = Case {
+    file: "docs/examples/open_pit",
+    overrides: &[
+        "mesh.parameters.h=0.5",
+        "materials.fill={model: linear_elastic, young: 20000, poisson: 0.3, unit_weight: 20}",
+        "phases=[{name: dig, analysis: quasi_static, duration: 1, step: {initial: 0.05, min: 0.01}, remove: [lift1, lift2]}, \
+         {name: fill, analysis: quasi_static, duration: 1, step: {initial: 0.05, min: 0.01}, place: {lift1: fill, lift2: clay}}]",
+    ],
+};
+
 /// A plate on clay that hardens: pressed in, let go until that bears its weight, taken away, and laid down again. The kills fall in every phase.
 const STAGES: Case = Case {
     file: "tests/data/plate",
@@ -450,6 +472,12 @@ fn a_load_released_bit_by_bit_killed_five_times_ends_the_same() {
     let undisturbed = survives_kills(&LAID, 33);
     let log = fs::read_to_string(undisturbed.path().join("solve.log")).unwrap();
     assert!(log.matches("held back").count() >= 2, "{log}");
+}
+
+#[test]
+fn runs_whose_soil_comes_and_goes_survive_kills() {
+    survives_kills(&LIFTS, 12);
+    survives_kills(&PIT, 13);
 }
 
 #[test]

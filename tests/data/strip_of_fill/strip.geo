@@ -1,0 +1,21 @@
+// Half of a strip of fill, 2 m wide, on clay 2 m deep: lifts of 1 m and 0.6 m. Cells are finest under its edge.
+DefineConstant[ h = {0.2, Min 0.02, Name "Parameters/h"} ];
+DefineConstant[ edge = {0.05, Min 0.01, Name "Parameters/edge"} ];
+b = 1;  w = 4;  d = 2;
+Point(1) = {0, -d, 0, 2*h};  Point(2) = {w, -d, 0, 2*h};  Point(3) = {w, 0, 0, 2*h};  Point(4) = {w, 2, 0, 2*h};  Point(5) = {0, 2, 0, h};
+Point(10) = {0, 0, 0, h};  Point(11) = {0, 1, 0, h};  Point(12) = {0, 1.6, 0, h};
+Point(20) = {b, 0, 0, edge};  Point(21) = {b, 1, 0, h};  Point(22) = {b, 1.6, 0, h};
+Line(1) = {1, 2};  Line(2) = {2, 3};  Line(3) = {3, 20};  Line(4) = {10, 1};  Line(5) = {3, 4};  Line(6) = {4, 5};  Line(7) = {5, 12};
+Line(30) = {10, 20};  Line(31) = {11, 21};  Line(32) = {12, 22};
+Line(40) = {10, 11};  Line(41) = {11, 12};  Line(50) = {20, 21};  Line(51) = {21, 22};
+Curve Loop(1) = {1, 2, 3, -30, 4};  Plane Surface(1) = {1};
+Curve Loop(2) = {-3, 5, 6, 7, 32, -51, -50};  Plane Surface(2) = {2};
+Curve Loop(3) = {30, 50, -31, -40};  Plane Surface(3) = {3};
+Curve Loop(4) = {31, 51, -32, -41};  Plane Surface(4) = {4};
+Physical Surface("clay") = {1};
+Physical Surface("air") = {2};
+Physical Surface("lift1") = {3};
+Physical Surface("lift2") = {4};
+Physical Curve("bottom") = {1};
+Physical Curve("sides") = {2, 4, 5, 7, 40, 41};
+Physical Curve("ground") = {30};
