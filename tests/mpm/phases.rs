@@ -1,22 +1,11 @@
 //! What phases do, through the program: the factor of safety against closed forms and a published slope.
 
-use crate::support::{column, mpm, rows, solve, solve_text, written};
+use crate::support::{column, log, mpm, rows, safety, solve, solve_text, written};
 use mpm::io::frame::{self, Frame};
 use mpm::io::provenance::Origin;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
-
-fn log(folder: &Path) -> String {
-    fs::read_to_string(folder.join("solve.log")).unwrap()
-}
-
-/// The factor of safety as the log has it: equilibrium and none.
-fn bracket(log: &str) -> [f64; 2] {
-    let line = log.lines().find(|line| line.starts_with("factor of safety")).unwrap_or_else(|| panic!("{log}"));
-    let words: Vec<&str> = line.split(' ').collect();
-    [words[3], words[5]].map(|number| number.parse().unwrap_or_else(|_| panic!("{line}")))
-}
 
 /// A block between smooth plates, loaded from above; weightless, and half of it.
 fn block(material: &str, load: f64) -> TempDir {
@@ -60,7 +49,7 @@ fn a_block_fails_where_its_reduced_strength_is_the_load() {
         ("model: mohr_coulomb, cohesion: 10, friction: 20, tension: 4", 3.0, 4.0 / 3.0),
     ] {
         let folder = block(material, load);
-        let [held, failed] = bracket(&log(folder.path()));
+        let [held, failed] = safety(&log(folder.path()));
         println!("{material}: {held} to {failed}, exact {exact:.4}");
         assert!(failed - held < 5e-4 && held < exact * 1.001 && failed > exact * 0.999, "{material}");
         // The history has the bracket in a row of its own, and the phase after it its strengths back.
@@ -96,7 +85,7 @@ fn a_search_begins_with_all_of_its_load() {
         (output.status.success(), log(folder.path()))
     };
     let (done, found) = search(-17.0);
-    let [held, failed] = bracket(&found);
+    let [held, failed] = safety(&found);
     let exact = 20.0 / 17.0;
     assert!(done && held < 1.001 * exact && failed > 0.999 * exact, "{found}");
     let (done, found) = search(-20.5);
@@ -125,7 +114,7 @@ fn a_search_after_unloading_finds_the_factor_of_what_is_left() {
          output: {{history: [{{name: top, on: top, quantities: [uy]}}]}}\n",
         load("load", -18.0)
     ));
-    let [held, failed] = bracket(&log(folder.path()));
+    let [held, failed] = safety(&log(folder.path()));
     let exact = 20.0 / 14.0;
     println!("{held} to {failed}, exact {exact:.4}");
     assert!(failed - held < 1e-3 && held < exact * 1.002 && failed > exact * 0.998, "{held} to {failed}");
@@ -162,7 +151,7 @@ fn what_bears_more_than_asked_is_told_so() {
 fn a_coarse_slope_has_its_published_factor_of_safety() {
     let settings = ["mesh.parameters.h=2", "phases.safety.step.min=0.01", "phases.failure.duration=0.02"];
     let folder = solve("cases/slope_safety", &settings);
-    let [held, failed] = bracket(&log(folder.path()));
+    let [held, failed] = safety(&log(folder.path()));
     println!("{held} to {failed}");
     assert!(failed - held < 0.021 && held > 1.4 * 0.97 && held < 1.4 * 1.05, "{held} to {failed}");
 }

@@ -10,6 +10,7 @@ pub mod stand;
 
 pub use history::{column, rows};
 pub use program::{
-    PROGRAM, command, errors, in_folder, mpm, project, python, run, said, solve, solve_text, stage, succeeds, written,
+    PROGRAM, command, errors, in_folder, log, mpm, project, python, run, safety, said, solve, solve_text, stage,
+    succeeds, written,
 };
 pub use random::Random;

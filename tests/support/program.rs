@@ -77,6 +77,18 @@ pub fn solve_text(text: &str) -> TempDir {
     folder
 }
 
+/// What `mpm solve` wrote into its log.
+pub fn log(folder: &Path) -> String {
+    fs::read_to_string(folder.join("solve.log")).unwrap()
+}
+
+/// The factor of safety as a log has it: the largest with equilibrium and the least without.
+pub fn safety(log: &str) -> [f64; 2] {
+    let line = log.lines().find(|line| line.starts_with("factor of safety")).unwrap_or_else(|| panic!("{log}"));
+    let words: Vec<&str> = line.split(' ').collect();
+    [words[3], words[5]].map(|number| number.parse().unwrap_or_else(|_| panic!("{line}")))
+}
+
 /// What a program said on standard error.
 pub fn errors(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()

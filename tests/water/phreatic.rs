@@ -1,7 +1,6 @@
 //! Water in the pores of soil up to a level, and outside up to the same one or another: against closed forms, through the program.
 
-use crate::support::{column, solve, solve_text};
-use std::fs;
+use crate::support::{column, log, safety, solve, solve_text};
 
 /// A column 2 m high under 1 m of water. First the pool falls to a quarter of a metre while the pores keep their pressure, which relieves the
 /// skeleton by 7.5 kPa all over; then the level falls to the base inside, too, and loads it by `γ_w` times the depth. With `M` confined and small strains,
@@ -143,11 +142,9 @@ mod slow {
     #[test]
     fn a_bank_whose_pool_is_drawn_down_has_its_factor_of_safety() {
         let folder = solve("cases/drawdown", &["mesh.parameters.h=1", "phases.safety.step.min=0.01"]);
-        let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
-        let line = log.lines().find(|line| line.starts_with("factor of safety")).unwrap_or_else(|| panic!("{log}"));
-        let words: Vec<&str> = line.split(' ').collect();
-        let [held, failed] = [words[3], words[5]].map(|number| number.parse::<f64>().unwrap());
+        let log = log(folder.path());
+        let [held, failed] = safety(&log);
         println!("{held} to {failed}");
-        assert!(failed - held < 0.021 && (0.5 * (held + failed) / 1.302 - 1.0).abs() < 0.03, "{line}");
+        assert!(failed - held < 0.021 && (0.5 * (held + failed) / 1.302 - 1.0).abs() < 0.03, "{log}");
     }
 }

@@ -1,8 +1,7 @@
 //! Cases of the gallery in coarse variants, against their references. `make gallery` has the meshes of their README files, and more of each.
 
-use crate::support::{column, solve};
+use crate::support::{column, log, safety, solve};
 use std::f64::consts::PI;
-use std::fs;
 use std::path::Path;
 
 fn last(folder: &Path, name: &str) -> f64 {
@@ -20,10 +19,8 @@ fn vertical_cuts_have_their_factor_of_safety() {
     {
         let folder =
             solve(format!("cases/{case}"), &[mesh, "phases.safety.step.min=0.01", "phases.failure.duration=0.02"]);
-        let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
-        let line = log.lines().find(|line| line.starts_with("factor of safety")).unwrap_or_else(|| panic!("{log}"));
-        let words: Vec<&str> = line.split(' ').collect();
-        let [held, failed] = [words[3], words[5]].map(|word| number * word.parse::<f64>().unwrap());
+        let log = log(folder.path());
+        let [held, failed] = safety(&log).map(|factor| number * factor);
         println!("{case}: {held:.3} to {failed:.3}");
         assert!(failed / held < 1.013 && failed > 3.763 && held < 3.815 * 1.06, "{case}: {held} to {failed}");
     }

@@ -1,8 +1,7 @@
 //! Factors of safety of clay slopes against the slip circle of the least one (φ = 0), which Taylor's charts (1937) are made of.
 
-use crate::support::{column, solve_text};
+use crate::support::{column, log, safety, solve_text};
 use std::f64::consts::PI;
-use std::fs;
 
 const UNIT_WEIGHT: f64 = 18.0;
 
@@ -92,13 +91,11 @@ impl Slope {
              - {{name: safety, analysis: strength_reduction, duration: 1.5, step: {{initial: 0.1, min: 0.01}}}}\n\
              output: {{history: [{{name: crest, on: crest, quantities: [ux, uy]}}]}}\n"
         ));
-        let log = fs::read_to_string(folder.path().join("solve.log")).unwrap();
-        let line = log.lines().find(|line| line.starts_with("factor of safety")).unwrap_or_else(|| panic!("{log}"));
-        assert!(line.contains("has its kink at"), "{line}");
+        let log = log(folder.path());
+        assert!(log.contains("has its kink at"), "{log}");
         let moved = column(folder.path(), "soil_moved [m]");
         assert!(moved.iter().all(|moved| *moved < 0.5), "{moved:?}");
-        let words: Vec<&str> = line.split(' ').collect();
-        [words[3], words[5]].map(|word| word.parse().unwrap_or_else(|_| panic!("{line}")))
+        safety(&log)
     }
 }
 
