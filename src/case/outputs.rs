@@ -12,7 +12,7 @@ use crate::mesh::{Group, Mesh};
 use crate::run::fields::Field as PointField;
 use crate::run::{InternalVariable, Outputs, Quantity, Side, Watch, WatchedOn};
 use crate::step::Scene;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// The outputs of a case, and the `warnings` that its run begins with.
 ///
@@ -106,8 +106,21 @@ fn side(case: &Case, mesh: &Mesh<2>, scene: &Scene<2>, curve: &Group) -> Result<
             format!("name a curve of {}, or the structure as a whole", list(&names)),
         )
     })?;
-    let facets = curve.facets.iter().map(|(_, nodes)| nodes.clone()).collect();
-    Ok(Side { region, facets, turned: case.geometry == Geometry::Axisymmetric })
+    let facets: Vec<Vec<u32>> = curve.facets.iter().map(|(_, nodes)| nodes.clone()).collect();
+    let ends = |facet: &[u32]| [facet[0].min(facet[1]), facet[0].max(facet[1])];
+    let of_curve: BTreeSet<[u32; 2]> = facets.iter().map(|facet| ends(facet)).collect();
+    // Facets of two cells of the structure are within it.
+    let mut rest: BTreeMap<[u32; 2], Option<Vec<u32>>> = BTreeMap::new();
+    let cells = scene.fem.iter().map(|fem| &fem.mesh.cells);
+    for (cells, c) in cells.flat_map(|cells| (0..cells.len()).map(move |c| (cells, c))) {
+        for facet in cells.kind[c].facets().1.iter().filter(|_| cells.region[c] == region) {
+            let nodes: Vec<u32> = facet.iter().map(|&i| cells.nodes(c)[i]).collect();
+            rest.entry(ends(&nodes)).and_modify(|facet| *facet = None).or_insert(Some(nodes));
+        }
+    }
+    rest.retain(|ends, _| !of_curve.contains(ends));
+    let rest = rest.into_values().flatten().collect();
+    Ok(Side { region, facets, rest, turned: case.geometry == Geometry::Axisymmetric })
 }
 
 /// What is watched of a curve, a point, a region or a rigid structure.

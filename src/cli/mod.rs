@@ -41,7 +41,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Write a folder with a case that runs, from a template: footing, penetration, anchor, slope, pipe, consolidation, silo, impact, wall, excavation, embankment, cpt
+    /// Write a folder with a case that runs, from a template: footing, penetration, anchor, slope, pipe, consolidation, silo, impact, wall, excavation, embankment, cpt, monopile
     New(new::Args),
     /// Mesh the .geo of a case: writes mesh.msh
     Mesh(mesh::Args),

@@ -39,7 +39,8 @@ pub fn run(args: &Args) -> Outcome {
         Error::input("mpm new", format!("there is no template `{name}`"), suggest(name, known))
     })?;
     let folder = args.folder.clone().unwrap_or_else(|| template.name.into());
-    let read = |overrides: &[String]| Source::parse(folder.join("case.yaml"), template.case.into(), overrides);
+    let parse = |file: &str, text: &str, overrides: &[String]| Source::parse(folder.join(file), text.into(), overrides);
+    let read = |overrides: &[String]| parse("case.yaml", template.case, overrides);
     let (parameters, entries): (Vec<String>, Vec<String>) =
         args.overrides.iter().cloned().partition(|argument| is_parameter(argument));
     let mut written = Folder::make(&folder)?;
@@ -52,6 +53,11 @@ pub fn run(args: &Args) -> Outcome {
     source.notes().iter().for_each(|text| note(text));
     case::resolved(source)?;
     written.write("case.yaml", &read(&entries)?.rewritten()?)?;
+    if let Some(loading) = template.loading {
+        // It has the ground and the structure of the first case, and phases of its own.
+        let shared: Vec<String> = entries.iter().filter(|entry| !is_of_the_run(entry)).cloned().collect();
+        written.write("loading.yaml", &parse("loading.yaml", loading, &shared)?.rewritten()?)?;
+    }
     written.write("Makefile", MAKEFILE)?;
     written.write("README.md", &with_changes(template.readme, &args.overrides))?;
     let names: Vec<String> = written.keep().iter().map(|path| path.display().to_string()).collect();
@@ -67,6 +73,13 @@ fn list() -> String {
 /// Whether an argument `PATH=VALUE` sets parameters of the `.geo`.
 fn is_parameter(argument: &str) -> bool {
     argument.strip_prefix(PARAMETERS).is_some_and(|rest| rest.starts_with(['.', '=']))
+}
+
+/// Whether an argument `PATH=VALUE` sets what each run of a state has for itself.
+fn is_of_the_run(argument: &str) -> bool {
+    ["title", "phases", "output"].iter().any(|key| {
+        argument.strip_prefix(key).is_some_and(|rest| rest.starts_with(['.', '=', '[']))
+    })
 }
 
 /// The text of the `.geo` of a template with the values of `parameters`, a block by their names.

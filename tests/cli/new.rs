@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 /// The templates, and what makes the mesh of each coarse.
-const TEMPLATES: [(&str, &str); 12] = [
+const TEMPLATES: [(&str, &str); 13] = [
     ("anchor", "0.25"),
     ("consolidation", "0.1"),
     ("cpt", "0.006"),
@@ -14,6 +14,7 @@ const TEMPLATES: [(&str, &str); 12] = [
     ("excavation", "0.25"),
     ("footing", "0.2"),
     ("impact", "0.1"),
+    ("monopile", "0.2"),
     ("penetration", "0.25"),
     ("pipe", "0.2"),
     ("silo", "0.15"),
@@ -74,6 +75,7 @@ fn every_template_is_sound_and_can_be_meshed_and_seeded() {
         let case = root.join(name);
         let geo = format!("{name}.geo");
         let mut files = vec!["Makefile", "README.md", "case.yaml", &geo];
+        files.extend((name == "monopile").then_some("loading.yaml"));
         files.sort_unstable();
         assert_eq!(names(&case), files);
         for file in files {

@@ -8,6 +8,8 @@ pub struct Template {
     pub summary: &'static str,
     pub geo: &'static str,
     pub case: &'static str,
+    /// `loading.yaml`, a case that starts from the state that the first one leaves.
+    pub loading: Option<&'static str>,
     pub readme: &'static str,
 }
 
@@ -19,18 +21,22 @@ macro_rules! file {
 
 macro_rules! template {
     ($name:literal, $summary:literal) => {
+        template!($name, $summary, None)
+    };
+    ($name:literal, $summary:literal, $loading:expr) => {
         Template {
             name: $name,
             summary: $summary,
             geo: file!(concat!($name, "/", $name, ".geo")),
             case: file!(concat!($name, "/case.yaml")),
+            loading: $loading,
             readme: file!(concat!($name, "/README.md")),
         }
     };
 }
 
 /// All of them, as they are listed.
-pub const TEMPLATES: [Template; 12] = [
+pub const TEMPLATES: [Template; 13] = [
     template!("footing", "a strip or circular footing on clay, loaded to its limit"),
     template!("penetration", "a round bar, a flat strip or a thin wall pushed deep into clay"),
     template!("anchor", "a plate anchor pulled up in clay"),
@@ -43,6 +49,11 @@ pub const TEMPLATES: [Template; 12] = [
     template!("excavation", "a pit beside an anchored wall in sand, dug in stages"),
     template!("embankment", "an embankment in lifts on soft clay, which consolidates between them"),
     template!("cpt", "a cone penetrometer pushed into clay"),
+    template!(
+        "monopile",
+        "an open pile pushed into clay, and a second case that pulls it",
+        Some(file!("monopile/loading.yaml"))
+    ),
 ];
 
 /// The `Makefile` of every template.

@@ -6,9 +6,6 @@ use crate::run::boundary;
 use crate::step::{Scene, State};
 use std::f64::consts::TAU;
 
-/// How far (-) the middle of a piece of the boundary may be beside a curve that it is of, in its length: curves are seen as straight between nodes.
-const BESIDE: f64 = 0.05;
-
 /// A named curve of a structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Side {
@@ -16,6 +13,8 @@ pub struct Side {
     pub region: u16,
     /// The nodes of its facets in Gmsh's order.
     pub facets: Vec<Vec<u32>>,
+    /// Those of the rest of the boundary of the structure.
+    pub rest: Vec<Vec<u32>>,
     /// Whether the plane is turned about its axis.
     pub turned: bool,
 }
@@ -26,12 +25,18 @@ pub fn contact<const D: usize>(scene: &Scene<D>, state: &State<D>, side: &Side) 
     let nodes = boundary::nodes(scene, state);
     let at = |n: u32| nodes[n as usize];
     let plane = |x: [f64; D]| [x[0], x[1]];
-    let pieces = side.facets.iter().flat_map(|facet| match facet[..] {
-        [a, b, middle] => vec![[a, middle], [middle, b]],
-        [a, b, ..] => vec![[a, b]],
-        _ => Vec::new(),
+    // Curves are seen as straight between nodes, so a piece of the boundary is of what lies nearest.
+    let [own, rest] = [&side.facets, &side.rest].map(|facets| {
+        let pieces = facets.iter().flat_map(|facet| match facet[..] {
+            [a, b, middle] => vec![[a, middle], [middle, b]],
+            [a, b, ..] => vec![[a, b]],
+            _ => Vec::new(),
+        });
+        pieces.map(|ends| ends.map(|n| plane(at(n)))).collect::<Vec<[[f64; 2]; 2]>>()
     });
-    let pieces: Vec<[[f64; 2]; 2]> = pieces.map(|ends| ends.map(|n| plane(at(n)))).collect();
+    let distance = |pieces: &[[[f64; 2]; 2]], x: &[f64; 2]| {
+        pieces.iter().map(|piece| nearest(x, piece).1).fold(f64::INFINITY, f64::min)
+    };
     let touching: Vec<usize> =
         scene.touching(state.phase.min(scene.phases.len() - 1)).map(|(number, _)| number).collect();
     let mut force = [0.0; 2];
@@ -46,7 +51,7 @@ pub fn contact<const D: usize>(scene: &Scene<D>, state: &State<D>, side: &Side) 
             let [a, b] = [&ends[0], &ends[1]].map(|mark| plane(mark.place));
             let length = (b[0] - a[0]).hypot(b[1] - a[1]);
             let middle = [0, 1].map(|d| 0.5 * (a[d] + b[d]));
-            if !pieces.iter().any(|piece| nearest(&middle, piece).1 <= BESIDE * length) {
+            if distance(&own, &middle) > distance(&rest, &middle) {
                 continue;
             }
             let [m, n] = [a, b].map(|x| if side.turned { TAU * x[0] } else { 1.0 });

@@ -3,6 +3,7 @@
 
 use crate::support::{column, in_folder, succeeds};
 use std::f64::consts::PI;
+use std::path::Path;
 use tempfile::TempDir;
 
 /// Writes a template with changes and runs it; returns the folder, with the results in `case/out`.
@@ -111,4 +112,19 @@ fn wall() {
     is_close(force(&[clay, "initial_stress.k0=1"]), 18.0 * 8.0 + 2.0 * 40.0 * 4.0, 0.03);
     let active = ["phases.push.prescribe.wall.ux.rate=-0.03", "materials.sand.cohesion=0"];
     is_close(force(&active), 18.0 * 8.0 / 3.0, 0.05);
+}
+
+/// The parts of a pile bear its whole force, also those with round edges, in the first case and in the one that goes on from it.
+#[test]
+fn monopile() {
+    let out = run("monopile", &["mesh.parameters.h=0.2", "phases.push.duration=0.8"]);
+    succeeds(&in_folder(out.path(), &["run", "case/loading.yaml", "-o", "loading"]));
+    let parts = |folder: &Path, names: &[&str]| -> f64 {
+        names.iter().map(|name| column(folder, &format!("{name}.contact_y [kN]")).last().unwrap()).sum()
+    };
+    for folder in ["case/out", "loading"].map(|folder| out.path().join(folder)) {
+        let all = parts(&folder, &["pile"]);
+        is_close(parts(&folder, &["tip", "outside", "inside"]), all, 2e-3);
+        assert_eq!(all > 0.0, folder.ends_with("case/out"), "{all}");
+    }
 }
