@@ -14,7 +14,7 @@ const TEMPLATES: [(&str, &str); 13] = [
     ("excavation", "0.25"),
     ("footing", "0.2"),
     ("impact", "0.1"),
-    ("monopile", "0.2"),
+    ("monopile", "0.1"),
     ("penetration", "0.25"),
     ("pipe", "0.2"),
     ("silo", "0.15"),

@@ -120,7 +120,7 @@ fn monopile() {
     let out = run("monopile", &["mesh.parameters.h=0.2", "phases.push.duration=0.8"]);
     succeeds(&in_folder(out.path(), &["run", "case/loading.yaml", "-o", "loading"]));
     let parts = |folder: &Path, names: &[&str]| -> f64 {
-        names.iter().map(|name| column(folder, &format!("{name}.contact_y [kN]")).last().unwrap()).sum()
+        names.iter().map(|name| *column(folder, &format!("{name}.contact_y [kN]")).last().unwrap()).sum()
     };
     for folder in ["case/out", "loading"].map(|folder| out.path().join(folder)) {
         let all = parts(&folder, &["pile"]);
