@@ -247,6 +247,9 @@ fn end_motion<const D: usize>(
     (n, d): (usize, usize),
     by: f64,
 ) -> [f64; 2] {
+    if let Some(end) = start.driven.get(&(n as u32, d)) {
+        return [end.acceleration, end.velocity];
+    }
     let (v, a) = (start.velocity[n][d], start.acceleration[n][d]);
     let next = integration.acceleration(by, v, a);
     let [less, more] = integration.released(contact.get(n).map_or(0.0, |by_contact| by_contact[d]));
