@@ -241,7 +241,7 @@ fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, g
 
 /// Acceleration (m/s²) and velocity (m/s) of a component of node `n` at the end of a step, `by` being its displacement in the step (m), `contact` what
 /// contact alone accelerates.
-fn end_motion<const D: usize>(
+pub fn end_motion<const D: usize>(
     integration: &GeneralisedAlpha,
     (start, contact): (&Start<D>, &[[f64; D]]),
     (n, d): (usize, usize),
