@@ -15,7 +15,9 @@ pub fn of_displacements(scene: &Scene<2>) -> Result<()> {
             if !scene.ties.is_empty() {
                 return Err(Error::input(
                     "supports",
-                    format!("the node at {place:.3?} m is tied to one of the opposite side, which is not held or moved with it"),
+                    format!(
+                        "the node at {place:.3?} m is tied to one of the opposite side, which is not held or moved with it"
+                    ),
                     "hold or move both sides alike: name the side at the other end of the tie as well, or a curve with both",
                 ));
             }

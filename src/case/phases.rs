@@ -3,8 +3,8 @@
 use super::check::Checker;
 use super::checked::{Numerics, Phase, Prescribed, StepSize, Until};
 use super::locate::{At, Path};
-use super::records::RECORDS;
 use super::raw::{self, Analysis};
+use super::records::RECORDS;
 use super::structure::suggest;
 use crate::gravity::Gravity;
 use crate::material::MODELS;

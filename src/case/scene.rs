@@ -7,8 +7,8 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts,
-    placed, pores, removed, scheme, search, seeded, springs, staged, stops, ties, unconnected, unmeant, wall, water,
+    bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, placed, pores,
+    removed, scheme, search, seeded, springs, staged, stops, ties, unconnected, unmeant, wall, water,
 };
 use crate::error::{Error, Result};
 use crate::gravity::Gravity;
@@ -301,7 +301,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let sprung = springs::followed(case, fem.as_ref().map(|fem| &fem.mesh), &springs);
-    let traced = traced.into_iter().chain(loaded.iter().copied()).chain(sprung).collect::<BTreeSet<u32>>().into_iter().collect();
+    let traced =
+        traced.into_iter().chain(loaded.iter().copied()).chain(sprung).collect::<BTreeSet<u32>>().into_iter().collect();
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,

@@ -28,11 +28,8 @@ impl Checker {
 
     /// Refuses springs and dashpots that have nothing to do, or nothing to act on.
     pub(super) fn on_springs(&mut self, file: &raw::CaseFile, curve: &str, held: &raw::Components, path: &Path) {
-        let named = [
-            ("absorbing", held.absorbing),
-            ("dashpots", held.dashpots.is_some()),
-            ("springs", held.springs.is_some()),
-        ];
+        let named =
+            [("absorbing", held.absorbing), ("dashpots", held.dashpots.is_some()), ("springs", held.springs.is_some())];
         let Some(key) = named.iter().find(|(_, there)| *there).map(|(key, _)| key) else { return };
         let path = path.key(key);
         if held.absorbing && held.dashpots.is_some() {
@@ -197,7 +194,8 @@ fn resistance(
             "draw a level or vertical boundary there, or give `springs` both `normal` and `tangential`",
         ));
     }
-    let is_rigid = |r: &u16| case.content(&meshes[0].regions[usize::from(*r)]).is_some_and(|content| content.is_rigid());
+    let is_rigid =
+        |r: &u16| case.content(&meshes[0].regions[usize::from(*r)]).is_some_and(|content| content.is_rigid());
     if beside.iter().any(is_rigid) {
         return Err(Error::input(
             support.place(),

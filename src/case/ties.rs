@@ -61,7 +61,10 @@ pub fn ties(case: &Case, (mesh, fem): (&Mesh<2>, Option<&Mesh<2>>)) -> Result<Ve
             let lost = sides[from].iter().find(|&&n| partners(n) != 1)?;
             let [x, y] = mesh.nodes[*lost as usize];
             let problem = match partners(*lost) {
-                0 => format!("the node of `{}` at [{x:.6}, {y:.6}] m has no node of `{}` at its height", names[from], names[to]),
+                0 => format!(
+                    "the node of `{}` at [{x:.6}, {y:.6}] m has no node of `{}` at its height",
+                    names[from], names[to]
+                ),
                 _ => format!("`{}` has several nodes at the height y = {y:.6} m", names[to]),
             };
             Some(Error::input(
@@ -76,7 +79,8 @@ pub fn ties(case: &Case, (mesh, fem): (&Mesh<2>, Option<&Mesh<2>>)) -> Result<Ve
         ties.extend(sides[0].iter().zip(&sides[1]).map(|(&follows, &followed)| [follows, followed]));
     }
     let mut follow = BTreeSet::new();
-    let doubly = ties.iter().find(|[follows, followed]| follows == followed || !follow.insert(*follows)).map(|tie| tie[0]);
+    let doubly =
+        ties.iter().find(|[follows, followed]| follows == followed || !follow.insert(*follows)).map(|tie| tie[0]);
     let chained = ties.iter().map(|tie| tie[1]).find(|followed| follow.contains(followed));
     if let Some(n) = doubly.or(chained) {
         return Err(Error::input(

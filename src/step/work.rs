@@ -200,7 +200,19 @@ impl Done {
     /// Analysis: a step with inertia creates more energy than it may of the most that was `in_play` (kJ).
     pub fn close(self, before: Energies, residual: &[f64], now: [f64; 2], in_play: f64) -> Result<Energies> {
         let Self {
-            way, given, works, contact, supports, ramp, dissipated, impact, driven, by_record, unresolved, at_start, ..
+            way,
+            given,
+            works,
+            contact,
+            supports,
+            ramp,
+            dissipated,
+            impact,
+            driven,
+            by_record,
+            unresolved,
+            at_start,
+            ..
         } = self;
         // What the supports bear of contact that counts otherwise in the equations.
         let of_supports = given.iter().map(|&e| way[e] * residual[e]).sum::<f64>();

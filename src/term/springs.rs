@@ -58,9 +58,8 @@ impl<const D: usize> Term<D> for Springs<D> {
             let first = frame.pattern.start[block as usize] as usize;
             (0..D).for_each(|d| out.force[first + d] += force[d]);
             if let Some(tangent) = &mut out.tangent {
-                let slope = |i: usize, j: usize| {
-                    (1.0 - trial.alpha_f) * spring.stiffness[i][j] + rate * spring.damping[i][j]
-                };
+                let slope =
+                    |i: usize, j: usize| (1.0 - trial.alpha_f) * spring.stiffness[i][j] + rate * spring.damping[i][j];
                 tangent.add_block(frame.pattern, first, D, slope);
             }
         }
