@@ -21,7 +21,7 @@ import yaml
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ROOT / "docs/reference"
 TABLE = re.compile(r"<!-- keys (\w+) -->\n(.*?)<!-- end of keys -->", re.DOTALL)
-UNIT = re.compile(r" [(\[](-|degrees|1/s|kN|kN/m|kN/m²|kN/m³|kNm²/m|kPa|m|m/s|m/s²|rad|rad/m|s|t/m³)[)\]]")
+UNIT = re.compile(r" [(\[](-|degrees|1/s|kN|kN/m|kN/m²|kN/m³|kNm²/m|kPa|kPa s/m|m|m/s|m/s²|rad|rad/m|s|t/m³)[)\]]")
 DEFAULT = re.compile(r"(?:\. |; )[Dd]efault:? (.+?)(?=\.$|\. |$)")
 MODELS = re.compile(r" of ((?:`?\w+`?, )*`?\w+`?)$")
 LONGEST = 56  # characters of an example

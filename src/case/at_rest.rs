@@ -3,7 +3,7 @@
 //! The vertical stress is the weight above, so forces balance vertically. Horizontally they do where the horizontal stress is the same at all
 //! places of one height between two supports: under level ground with level layers.
 
-use super::checked::{Case, Content, EarthPressure, Geometry, Region, Touching};
+use super::checked::{Case, Content, EarthPressure, Geometry, Region, Support, Touching};
 use super::find::{filled, region_index, regions};
 use super::layout::{Bounds, bounds};
 use super::plates;
@@ -165,8 +165,8 @@ impl<'a> Ground<'a> {
             Touching::Wall(curve) => Some(curve),
             Touching::Structure(_) => None,
         });
-        let supports =
-            case.supports.iter().filter(|support| support.fixed[0] || support.absorbing).map(|support| &support.curve);
+        let bears = |s: &&Support| s.fixed[0] || s.absorbing || s.dashpots.is_some() || s.tied.is_some();
+        let supports = case.supports.iter().filter(bears).flat_map(|s| std::iter::once(&s.curve).chain(&s.tied));
         let first = || case.phases.first().into_iter();
         let moved = first().flat_map(|phase| &phase.prescribed).filter(|moved| moved.component == 0);
         let loaded =

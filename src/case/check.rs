@@ -188,10 +188,12 @@ impl Checker {
             }
             self.drained(file, curve, held, &path);
             let displacements = [held.ux, held.uy, held.un, held.rotation];
-            if held.absorbing {
-                self.absorbing(file, curve, held, &path.key("absorbing"));
-            }
-            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) && !held.absorbing {
+            self.on_springs(file, curve, held, &path);
+            self.tied(file, curve, held, &path);
+            let [springs, dashpots] = [("springs", held.springs), ("dashpots", held.dashpots)]
+                .map(|(key, given)| self.yielding(given, &path.key(key)));
+            let yields = held.absorbing || held.springs.is_some() || held.dashpots.is_some() || held.tied.is_some();
+            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) && !yields {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0`, `uy: 0` or `un: 0`");
             }
             checked.push(Support {
@@ -201,39 +203,12 @@ impl Checker {
                 across: held.un.is_some(),
                 drained: held.pore_pressure.is_some(),
                 absorbing: held.absorbing,
+                springs,
+                dashpots,
+                tied: held.tied.clone(),
             });
         }
         checked
-    }
-
-    /// Refuses dashpots that have nothing to do, or nothing to act on.
-    fn absorbing(&mut self, file: &raw::CaseFile, curve: &str, held: &raw::Components, path: &Path) {
-        let dynamic = |phase: &raw::Phase| phase.analysis == raw::Analysis::Dynamic;
-        if !file.phases.iter().any(dynamic) {
-            let remedy = "take it out, or make a phase `analysis: dynamic`";
-            self.issue(path, At::Key, "no phase has waves", remedy);
-        }
-        if file.phases.iter().any(|phase| phase.analysis == raw::Analysis::Auto) {
-            let remedy = "choose quasi_static or dynamic for each phase";
-            self.issue(path, At::Key, "an `auto` phase cannot tell when the curve is to be held", remedy);
-        }
-        if held.un.is_some() || held.rotation.is_some() || held.ux.is_some() && held.uy.is_some() {
-            let remedy = "leave at least one of `ux` and `uy` out, and `un` and `rotation`";
-            self.issue(path, At::Key, "a curve that is held does not absorb", remedy);
-        }
-        if file.regions.contains_key(curve) {
-            self.issue(path, At::Key, "waves leave through a physical curve", "name the curve in place of the region");
-        }
-        if let Some(i) = file.phases.iter().position(|phase| phase.prescribe.contains_key(curve)) {
-            let problem = format!("phase `{}` prescribes the displacement of `{curve}`", file.phases[i].name);
-            let remedy =
-                "take one of the two out; an incoming wave of the velocity v is a traction of 2ρcv on the curve";
-            self.issue(path, At::Key, problem, remedy);
-        }
-        if file.numerics.gradient == "bspline" {
-            let remedy = "choose `gradient: mpm`";
-            self.issue(path, At::Key, "dashpots act on nodes, and splines have none", remedy);
-        }
     }
 
     /// The index of the region that the key at `path` names.

@@ -208,7 +208,7 @@ pub enum Touched {
 }
 
 /// Components of the displacement held at zero on a curve or a rigid structure, and the rotation of that.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Support {
     pub curve: String,
     pub fixed: [bool; 2],
@@ -219,6 +219,11 @@ pub struct Support {
     pub drained: bool,
     /// Whether waves leave there.
     pub absorbing: bool,
+    /// Springs (kN/m³) and dashpots (kPa s/m) across the curve and along it.
+    pub springs: Option<[f64; 2]>,
+    pub dashpots: Option<[f64; 2]>,
+    /// The side that it is tied to.
+    pub tied: Option<String>,
 }
 
 /// The velocity of a region before the first phase.

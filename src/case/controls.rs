@@ -12,6 +12,15 @@ pub fn of_displacements(scene: &Scene<2>) -> Result<()> {
     for fixed in (0..scene.phases.len()).flat_map(|phase| scene.fixed(phase)) {
         if let Some(node) = constraints.unheld(&fixed.nodes) {
             let place = scene.origin(node);
+            if !scene.ties.is_empty() {
+                return Err(Error::input(
+                    "supports",
+                    format!(
+                        "the node at {place:.3?} m is tied to one of the opposite side, which is not held or moved with it"
+                    ),
+                    "hold or move both sides alike: name the side at the other end of the tie as well, or a curve with both",
+                ));
+            }
             return Err(Error::input(
                 "numerics.gradient",
                 format!(

@@ -4,7 +4,6 @@
 //! against the schema of [`raw`], `check` resolves that into [`checked`] types, [`names`] holds the result
 //! against the groups of the mesh.
 
-mod absorbing;
 pub mod at_rest;
 mod bars;
 mod changes;
@@ -36,6 +35,7 @@ mod placed;
 pub mod plates;
 mod pores;
 pub mod raw;
+mod records;
 mod removed;
 mod rigid;
 pub mod scene;
@@ -44,12 +44,14 @@ mod search;
 pub mod seeded;
 pub mod seeding;
 pub mod source;
+mod springs;
 mod staged;
 pub mod start;
 mod stops;
 pub mod structure;
 #[cfg(test)]
 mod tests;
+mod ties;
 pub mod unconnected;
 mod unlikely;
 pub mod unmeant;

@@ -59,6 +59,9 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         } else {
             names.held(case, &support.curve, &path);
         }
+        if let Some(other) = &support.tied {
+            names.curve(other, &path.key("tied"), At::Value);
+        }
     }
     let across = |curve: &str| case.supports.iter().any(|support| support.across && support.curve == curve);
     for (i, contact) in case.contacts.iter().enumerate() {

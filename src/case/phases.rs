@@ -4,6 +4,7 @@ use super::check::Checker;
 use super::checked::{Numerics, Phase, Prescribed, StepSize, Until};
 use super::locate::{At, Path};
 use super::raw::{self, Analysis};
+use super::records::RECORDS;
 use super::structure::suggest;
 use crate::gravity::Gravity;
 use crate::material::MODELS;
@@ -53,13 +54,17 @@ impl Checker {
             if motion.rotation.is_some() {
                 self.turns(file, curve, &path.key("rotation"));
             }
-            if motion.ux.is_none() && motion.uy.is_none() && motion.rotation.is_none() {
+            let accelerated = self.records(phase, file, motion, &path);
+            let entries = [("ux", &motion.ux), ("uy", &motion.uy), ("rotation", &motion.rotation)];
+            if entries.iter().all(|(_, value)| value.is_none()) && accelerated.iter().all(Option::is_none) {
                 self.issue(&path, At::Key, "nothing is prescribed", "add `ux: …` or `uy: …`");
             }
-            let entries = [("ux", &motion.ux), ("uy", &motion.uy), ("rotation", &motion.rotation)];
             for (component, (key, value)) in entries.into_iter().enumerate() {
-                let Some(value) = value else { continue };
-                let displacement = self.in_time(value, &path.key(key));
+                let (key, displacement) = match (value, accelerated.get(component)) {
+                    (_, Some(Some(record))) => (RECORDS[component], record.clone()),
+                    (Some(value), _) => (key, self.in_time(value, &path.key(key))),
+                    (None, _) => continue,
+                };
                 let held =
                     file.supports.get(curve).is_some_and(|held| [held.ux, held.uy, held.rotation][component].is_some());
                 if held && displacement != TimeValue::Constant(0.0) {
@@ -156,7 +161,7 @@ impl Checker {
                     self.issue(&at, At::Value, format!("strengths cannot be divided by {factor}"), remedy);
                 }
             }
-            TimeValue::Constant(_) => {}
+            TimeValue::Constant(_) | TimeValue::Record(_) => {}
         }
         let grows =
             matches!(&value, TimeValue::Table(table) if table.len() > 1 && table.windows(2).all(|w| w[1][1] > w[0][1]));

@@ -229,6 +229,27 @@ pub struct Components {
     /// the soil beside it, in place of supports.
     #[serde(default)]
     pub absorbing: bool,
+    /// Springs under the curve, free of force as the run begins: what they resist a displacement, per area of the undeformed curve, in all phases (kN/m³).
+    pub springs: Option<Yielding>,
+    /// Dashpots under the curve: what they resist a velocity, per area of the undeformed curve, in steps with inertia. Where there are no springs beside
+    /// them, the curve is held in other phases (kPa s/m).
+    pub dashpots: Option<Yielding>,
+    /// The name of the opposite side, whose nodes at the same heights have the same displacements (tied degrees of freedom).
+    pub tied: Option<String>,
+}
+
+/// What a curve resists, across and along itself.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Yielding {
+    /// Across the curve.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub normal: f64,
+    /// Along the curve.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub tangential: f64,
 }
 
 /// Contact between a structure or a wall and soil, or between two bodies.

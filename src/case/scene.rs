@@ -7,8 +7,8 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    absorbing, bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts,
-    placed, pores, removed, scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
+    bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, placed, pores,
+    removed, scheme, search, seeded, springs, staged, stops, ties, unconnected, unmeant, wall, water,
 };
 use crate::error::{Error, Result};
 use crate::gravity::Gravity;
@@ -24,7 +24,7 @@ use crate::run::{self, Ended, First, Outputs, Progress, checkpoint};
 use crate::step::{Fem, Phase, Scene, Search, State, overlap};
 use crate::term::{
     Bar, Bars, BodyForce, Contact, EmptyCells, GhostInertia, GhostPenalty, Inertia, Internal, PoreStabilisation,
-    PoreWater, PressureField, SmoothPressure, Term,
+    PoreWater, PressureField, SmoothPressure, Spring, Springs, Term,
 };
 use crate::time_value::TimeValue;
 use std::collections::BTreeSet;
@@ -272,7 +272,12 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         }
         None => None,
     };
-    terms.extend(absorbing::term::<K>(case, [&mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh)])?.map(boxed));
+    let of_structures = fem.as_ref().map_or(&mesh, |fem| &fem.mesh);
+    let ties = ties::ties(case, (&mesh, fem.as_ref().map(|fem| &fem.mesh)))?;
+    let springs: std::sync::Arc<[Spring<2>]> = springs::springs::<K>(case, [&mesh, of_structures], &ties)?.into();
+    if !springs.is_empty() {
+        terms.push(Box::new(Springs(springs.clone())));
+    }
     let levels = case.water.as_ref().and_then(|water| water.levels(size));
     let interfaces =
         contact_interfaces::interfaces::<K>(case, &mesh, fem.as_ref().map_or(&mesh, |fem| &fem.mesh), &bodies)?;
@@ -281,12 +286,11 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     }
     let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
-    let (supports, free) = (holds.supports()?, absorbing::components(case, &mesh)?);
+    let (supports, free) = (holds.supports()?, springs::held(case, &mesh, &springs)?);
     let search = search::search(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
-    let of_structures = fem.as_ref().map_or(&mesh, |fem| &fem.mesh);
     let staged = |(number, p)| {
         let mut held = staged::held(case, &mesh, of_structures, &bodies, p)?;
-        held.extend(absorbing::held(case, &mesh, p)?);
+        held.extend(free.iter().filter(|_| !p.analysis.has_inertia()).cloned());
         let changes = changes::of_phase(case, [&mesh, of_structures], number)?;
         Ok(Phase { held, changes, ..phase(case, &holds, number, p, search.as_ref())? })
     };
@@ -296,7 +300,9 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let placements = placements.collect::<Result<_>>()?;
     let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
-    let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();
+    let sprung = springs::followed(case, fem.as_ref().map(|fem| &fem.mesh), &springs);
+    let traced =
+        traced.into_iter().chain(loaded.iter().copied()).chain(sprung).collect::<BTreeSet<u32>>().into_iter().collect();
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -312,6 +318,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         water,
         supports,
         absorbing: free,
+        springs,
+        ties,
         begins: if case.equilibrium { -case.phases[0].duration } else { 0.0 },
         phases,
         removals,
@@ -327,10 +335,6 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     };
     controls::of_displacements(&scene)?;
     Ok(scene)
-}
-
-fn boxed(term: impl Term<2> + 'static) -> Box<dyn Term<2>> {
-    Box::new(term)
 }
 
 /// The terms of the stress in the cells of `mesh`.

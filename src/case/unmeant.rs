@@ -9,9 +9,9 @@ mod own_weight;
 
 use self::falls::{GOOD_STEP, LONG_STEP};
 use super::checked::{Case, Content, Phase, Touched, Touching};
-use super::layout::{Bounds, bounds, gap, moves};
+use super::layout::{Bounds, bounds, farthest, gap, moves};
 use super::unconnected::Place;
-use super::{at_rest, drains, equilibrium, histories, plates, unlikely};
+use super::{at_rest, drains, equilibrium, histories, plates, records, unlikely};
 use crate::error::Result;
 use crate::geometry::box_around;
 use crate::mesh::quality::SAME;
@@ -42,6 +42,7 @@ pub fn of_case(case: &Case, places: &[Place]) -> Vec<String> {
     let strange = case.unlikely.iter().cloned().chain(unlikely::extents(case, places));
     let told = strange.chain(loose).chain(room(case, places)).chain(above_water(case, places));
     let told = told.chain(equilibrium::undrained(case));
+    let told = told.chain(records::warnings(case));
     told.chain(loads::of_case(case)).chain(own_weight::of_case(case, places)).collect()
 }
 
@@ -188,10 +189,7 @@ fn leaves(case: &Case, name: &str, body: &Mesh<2>, [low, bottom]: [f64; 2]) -> O
     for phase in &case.phases {
         let mut down = phase.prescribed.iter().filter(|moved| moved.component == 1 && moves(name, body, &moved.curve));
         let Some(moved) = down.next() else { continue };
-        let within = match &moved.displacement {
-            TimeValue::Table(table) => table.iter().map(|[_, u]| *u).fold(0.0, f64::min),
-            _ => 0.0,
-        };
+        let within = moved.displacement.kinks().map(|t| moved.displacement.at(t)).fold(0.0, f64::min);
         let end = moved.displacement.at(phase.duration);
         let lowest = at + end.min(within);
         if low >= bottom && lowest < bottom {
@@ -220,6 +218,9 @@ fn motions<'a>(case: &'a Case, name: &str, body: &Mesh<2>) -> Vec<Motion<'a>> {
                         table.windows(2).map(|pair| ((pair[1][1] - pair[0][1]) / (pair[1][0] - pair[0][0])).abs());
                     let distance = table.iter().map(|[_, u]| u.abs()).fold(0.0, f64::max);
                     (distance, speeds.fold(0.0, f64::max))
+                }
+                TimeValue::Record(record) => {
+                    (farthest(&moved.displacement, phase.duration), record.fastest(phase.duration))
                 }
             };
             if distance > 0.0 {

@@ -65,6 +65,18 @@ fn acting(case: &Case) -> Vec<(String, String)> {
         if support.across {
             add(&support.curve, "un = 0".to_owned());
         }
+        if support.absorbing {
+            add(&support.curve, "absorbing".to_owned());
+        }
+        if support.springs.is_some() {
+            add(&support.curve, "springs".to_owned());
+        }
+        if support.dashpots.is_some() {
+            add(&support.curve, "dashpots".to_owned());
+        }
+        if let Some(other) = &support.tied {
+            add(&support.curve, format!("tied to {other}"));
+        }
         if support.drained {
             add(&support.curve, "drained".to_owned());
         }

@@ -256,6 +256,10 @@ fn weighted_acceleration<const D: usize>(
     };
     out.clear();
     out.extend((0..u.len()).map(at));
+    for (&(n, d), end) in problem.driven.into_iter().flatten() {
+        let n = n as usize;
+        out[n][d] = integration.weighted(problem.acceleration[n][d], end.acceleration);
+    }
 }
 
 /// The displacement (m) of the nodes in half a step after this one, `½ Δt v`, with the velocity (eq. 5) at its end: for contact between

@@ -275,6 +275,7 @@ impl<const D: usize> Grid<D> {
             coupling: &self.coupling,
             block: &self.dofs.block,
             linear_constraints: self.dofs.constraints.as_ref(),
+            travel: &state.travel,
             bodies: &self.body_coupling,
             bars: self.elements.as_ref().map_or(&[], |elements| &elements.bars),
             free_lengths: &state.free_lengths,

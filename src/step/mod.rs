@@ -13,6 +13,7 @@ mod contact;
 mod control;
 mod distortion;
 mod drainage;
+mod driven;
 mod energies;
 mod equilibrate;
 mod facing;

@@ -1,5 +1,6 @@
 //! A step as an equation, and its solution.
 
+use super::driven::Ends;
 use super::grid::Grid;
 use super::scene::Scene;
 use super::start::Start;
@@ -21,6 +22,8 @@ pub struct Problem<'a, const D: usize> {
     pub acceleration: &'a [[f64; D]],
     /// As [`Start::unresolved`].
     pub unresolved: &'a [f64],
+    /// As [`Start::driven`]; absent without inertia.
+    pub driven: Option<&'a Ends>,
     pub phase: usize,
     /// Time (s) in the phase at the beginning and the end of the step.
     pub from: f64,
@@ -43,6 +46,7 @@ impl<'a, const D: usize> Problem<'a, D> {
             velocity: &[],
             acceleration: &[],
             unresolved: &[],
+            driven: None,
             phase: state.phase,
             from: state.phase_time,
             to: state.phase_time,
@@ -66,6 +70,7 @@ impl<'a, const D: usize> Problem<'a, D> {
             velocity,
             acceleration,
             unresolved,
+            driven: start.map(|start| &start.driven),
             to: state.phase_time + dt,
             given,
             integration: start.map(|_| GeneralisedAlpha::new(scene.numerics.spectral_radius, dt)),

@@ -76,7 +76,7 @@ pub struct Report<const D: usize> {
     pub contacts: Vec<Resultant<D>>,
     /// The volume balance of the pore water; absent without water.
     pub water: Option<Balance>,
-    /// Force of the supports (kN) on the nodes, and then on the unknowns of rigid bodies: zero without.
+    /// Force of the supports and of springs and dashpots (kN) on the nodes, and then on the unknowns of rigid bodies: zero without.
     pub reaction: Vec<[f64; D]>,
 }
 
@@ -103,6 +103,14 @@ impl<const D: usize> Report<D> {
         let impulse = |d: usize| dt * (solution.applied[d] + held(d));
         let dynamic = state.dynamic(scene);
         let imbalance = std::array::from_fn(|d| if dynamic { motion.linear[d] - before[d] - impulse(d) } else { 0.0 });
+        for spring in &*scene.springs {
+            let n = spring.node as usize;
+            if grid.dofs.has(spring.node) {
+                let rate = if dynamic { 1.0 / dt } else { 0.0 };
+                let force = spring.resists(&state.travel[n], &state.increment[n].map(|by| rate * by));
+                (0..D).for_each(|d| reaction[n][d] -= force[d]);
+            }
+        }
         let fall = |(x, m): (&[f64; D], &f64)| -m * (0..D).map(|d| scene.gravity[d] * x[d]).sum::<f64>();
         let energy =
             |terms: &[Box<dyn Term<D>>], points: &Points<D>| terms.iter().map(|t| t.energy(points)).sum::<f64>();

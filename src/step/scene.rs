@@ -8,9 +8,10 @@ use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::quadrature::{Parting, Placing, Quadrature};
 use crate::rigid::Body;
-use crate::system::LinearConstraints;
-use crate::term::{Bar, MixedPressure, Porous, Term, WaterLevels};
+use crate::system::{LinearConstraints, Rows};
+use crate::term::{Bar, MixedPressure, Porous, Spring, Term, WaterLevels};
 use crate::time_value::TimeValue;
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// What a case resolves into. Only [`crate::case`] decides which terms it has.
@@ -42,8 +43,12 @@ pub struct Scene<const D: usize> {
     pub water: Option<Water>,
     /// Degrees of freedom held at their place in every phase.
     pub supports: Vec<Fixed>,
-    /// Those of boundaries that waves leave through, which are held in phases without inertia only.
+    /// Those of boundaries with dashpots and no springs, which are held in phases without inertia only.
     pub absorbing: Vec<Fixed>,
+    /// Springs and dashpots under nodes.
+    pub springs: Arc<[Spring<D>]>,
+    /// Pairs of nodes that move alike: the first follows the second.
+    pub ties: Vec<[u32; 2]>,
     pub phases: Vec<Phase>,
     /// The soil that each phase removes as it begins.
     pub removals: Vec<Option<Removal<D>>>,
@@ -93,9 +98,19 @@ impl<const D: usize> Scene<D> {
         self.bodies.iter().map(|body| &body.dofs).find(|dofs| dofs.rotation == Some(n))
     }
 
-    /// The displacements of the nodes as combinations of those of controls (`E` of eq. 2c), where the scheme has such.
+    /// The displacements of the nodes as combinations of those of controls (`E` of eq. 2c), where the scheme has such, or nodes are tied.
     pub fn constraints(&self) -> Option<LinearConstraints> {
-        self.basis.constraints(&self.mesh).map(|constraints| constraints.extended(self.displacements()))
+        if self.ties.is_empty() {
+            return self.basis.constraints(&self.mesh).map(|constraints| constraints.extended(self.displacements()));
+        }
+        let followed: BTreeMap<u32, u32> = self.ties.iter().map(|&[follows, followed]| (follows, followed)).collect();
+        let (mut nodes, mut controls) = (Rows::default(), Rows::default());
+        for n in 0..self.displacements() as u32 {
+            let control = followed.get(&n);
+            nodes.push([(*control.unwrap_or(&n), 1.0)]);
+            controls.push(control.is_none().then_some((n, 1.0)));
+        }
+        Some(LinearConstraints::new(nodes, controls))
     }
 
     /// Whether a pressure field carries a share of the stress.

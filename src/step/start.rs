@@ -1,6 +1,7 @@
 //! The motion with which a step with inertia begins: that of the nodes, stopped or pushed where their displacement is prescribed
 //! (docs/theory.md, section 4).
 
+use super::driven::{self, Ends};
 use super::family::Family;
 use super::grid::Grid;
 use super::mass::{Carrier, Mass};
@@ -10,12 +11,13 @@ use super::state::State;
 use crate::error::Result;
 use crate::interpolation::MAX_FUNCTIONS;
 use crate::kinematics::Kinematics;
+use crate::time_value::Motion;
 
-/// What a field lacks at the active nodes whose displacement is `given` of that times `rate` (1/s), zero at others, by component.
-fn lacks<const D: usize>(grid: &Grid<D>, given: &[Option<f64>], field: &[[f64; D]], rate: f64) -> [Vec<f64>; D] {
+/// What a field lacks at the active nodes of what is `wanted` there, one entry an equation, zero at others, by component.
+fn lacks<const D: usize>(grid: &Grid<D>, wanted: &[Option<f64>], field: &[[f64; D]]) -> [Vec<f64>; D] {
     let now: Vec<[f64; D]> = grid.dofs.node.iter().map(|&n| grid.dofs.value(n, |m| field[m as usize])).collect();
     std::array::from_fn(|d| {
-        let lacks = |(b, now): (usize, &[f64; D])| given[b * D + d].map_or(0.0, |by| by * rate - now[d]);
+        let lacks = |(b, now): (usize, &[f64; D])| wanted[b * D + d].map_or(0.0, |wanted| wanted - now[d]);
         now.iter().enumerate().map(lacks).collect()
     })
 }
@@ -37,10 +39,13 @@ pub struct Start<const D: usize> {
     /// What the weight of contact gives to motions of frequencies that the step does not resolve (kN, one entry an equation; docs/theory.md, eq. 6b);
     /// empty where there is none.
     pub unresolved: Vec<f64>,
+    /// The motion at the end of the step where nodes are driven.
+    pub driven: Ends,
 }
 
 impl<const D: usize> Start<D> {
-    /// The motion in `state`. Nodes whose displacement is prescribed move at the constant speed of the step instead. Their sudden
+    /// The motion in `state`. Nodes whose displacement is prescribed move at the constant speed of the step instead, those driven by a record of
+    /// acceleration as that has it. Their sudden
     /// change of velocity (an impact, a kink of a table) is part of the increment that [`motion_to_points`](super::transfer::motion_to_points) gives to the points.
     ///
     /// It is an impulse on these nodes alone: the momentum of all others stays, and as nodes share mass their velocities do not. So what is stopped
@@ -55,11 +60,17 @@ impl<const D: usize> Start<D> {
         given: &[Option<f64>],
         dt: f64,
     ) -> Result<Self> {
-        let mut start =
-            Self { velocity: state.velocity.clone(), acceleration: state.acceleration.clone(), unresolved: Vec::new() };
-        let halt = lacks(grid, given, &start.acceleration, 0.0);
+        let (velocity, acceleration) = (state.velocity.clone(), state.acceleration.clone());
+        let (begins, driven) = driven::motion(scene, state, grid, dt);
+        let mut start = Self { velocity, acceleration, unresolved: Vec::new(), driven };
+        let wanted = |of_steady: f64, of_driven: fn(&Motion) -> f64| {
+            let mut wanted: Vec<Option<f64>> = given.iter().map(|given| given.map(|by| by * of_steady)).collect();
+            begins.iter().for_each(|(equation, motion)| wanted[*equation] = Some(of_driven(motion)));
+            wanted
+        };
+        let halt = lacks(grid, &wanted(0.0, |motion| motion.acceleration), &start.acceleration);
         change(grid, &halt, &mut start.acceleration);
-        let mut jump = lacks(grid, given, &start.velocity, 1.0 / dt);
+        let mut jump = lacks(grid, &wanted(1.0 / dt, |motion| motion.velocity), &start.velocity);
         let largest = start.velocity.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
         if jump.iter().flatten().any(|by| by.abs() > ROUNDING * largest) {
             let mut mass = Mass::assemble::<D, K>(scene, grid, state, Carrier::IntegrationPoints)?;

@@ -241,12 +241,15 @@ fn accelerations_to_points<const D: usize, K: Kinematics<D>>(scene: &Scene<D>, g
 
 /// Acceleration (m/s²) and velocity (m/s) of a component of node `n` at the end of a step, `by` being its displacement in the step (m), `contact` what
 /// contact alone accelerates.
-fn end_motion<const D: usize>(
+pub fn end_motion<const D: usize>(
     integration: &GeneralisedAlpha,
     (start, contact): (&Start<D>, &[[f64; D]]),
     (n, d): (usize, usize),
     by: f64,
 ) -> [f64; 2] {
+    if let Some(end) = start.driven.get(&(n as u32, d)) {
+        return [end.acceleration, end.velocity];
+    }
     let (v, a) = (start.velocity[n][d], start.acceleration[n][d]);
     let next = integration.acceleration(by, v, a);
     let [less, more] = integration.released(contact.get(n).map_or(0.0, |by_contact| by_contact[d]));

@@ -7,6 +7,7 @@
 use super::balance::{by_equation, kinetic, works_at_start};
 use super::contact;
 use super::drainage;
+use super::driven;
 use super::energies::{Energies, Item};
 use super::grid::Grid;
 use super::problem::Solution;
@@ -93,6 +94,8 @@ pub struct Done {
     /// What is lost as the velocities of supported and prescribed nodes take their values at once, and what those that prescribe them give to it.
     impact: f64,
     driven: f64,
+    /// What [`driven::work`] gives.
+    by_record: f64,
     /// What a step with inertia does not resolve (kJ): what gravity gives in it to all that falls freely.
     unresolved: f64,
     /// Without inertia: the part of the work that the forces at the beginning of the step do, in which all of them are in balance.
@@ -145,8 +148,9 @@ impl Done {
                 sum(&force) - of_given(&|e| force[e])
             }
         };
-        let (mut impact, mut driven, mut at_start) = (0.0, 0.0, None);
+        let (mut impact, mut driven, mut at_start, mut by_record) = (0.0, 0.0, None, 0.0);
         if let Some(start) = start {
+            by_record = driven::work(scene, grid, state, (solution, start), dt)?;
             if start.velocity != state.velocity {
                 let jump: Vec<[f64; D]> = start
                     .velocity
@@ -182,6 +186,7 @@ impl Done {
             dissipated,
             impact,
             driven,
+            by_record,
             at_start,
             way,
             given,
@@ -195,7 +200,19 @@ impl Done {
     /// Analysis: a step with inertia creates more energy than it may of the most that was `in_play` (kJ).
     pub fn close(self, before: Energies, residual: &[f64], now: [f64; 2], in_play: f64) -> Result<Energies> {
         let Self {
-            way, given, works, contact, supports, ramp, dissipated, impact, driven, unresolved, at_start, ..
+            way,
+            given,
+            works,
+            contact,
+            supports,
+            ramp,
+            dissipated,
+            impact,
+            driven,
+            by_record,
+            unresolved,
+            at_start,
+            ..
         } = self;
         // What the supports bear of contact that counts otherwise in the equations.
         let of_supports = given.iter().map(|&e| way[e] * residual[e]).sum::<f64>();
@@ -215,12 +232,13 @@ impl Done {
         };
         let steps = works.of(Source::Inertia) - kinetic + stress - stored - dissipated.plastic - dissipated.seepage
             + weighted
+            + by_record
             + mean(ramp, &|at| at.ramp);
         let supplied = [
             (Item::Gravity, -of(Source::Gravity)),
             (Item::Loads, -of(Source::Load)),
             (Item::Water, -of(Source::Water)),
-            (Item::Supports, mean(of_supports, &|at| at.supports)),
+            (Item::Supports, mean(of_supports, &|at| at.supports) + by_record),
         ];
         let mut after = before;
         for (item, value) in supplied.into_iter().chain([

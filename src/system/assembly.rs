@@ -84,6 +84,17 @@ impl Matrix {
         self.values[diagonal_place(pattern, e)] += value;
     }
 
+    /// Adds `value(i, j)` to the diagonal block of `width` equations from `first` on, given the row and the column within it.
+    pub fn add_block(&mut self, pattern: &Pattern, first: usize, width: usize, value: impl Fn(usize, usize) -> f64) {
+        for j in 0..width {
+            let diagonal = diagonal_place(pattern, first + j);
+            // Of a symmetric system only the lower triangle is kept.
+            for i in if pattern.symmetric { j } else { 0 }..width {
+                self.values[diagonal + i - j] += value(i, j);
+            }
+        }
+    }
+
     /// The matrix in `count` groups of columns with about as many entries each.
     fn columns(&mut self, pattern: &Pattern, count: usize) -> Vec<Columns<'_>> {
         let blocks = pattern.start.len() - 1;

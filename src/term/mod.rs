@@ -4,7 +4,6 @@
 //! The system solved in each step is `R(u) = 0` with `R = Σ terms`, internal forces positive. A term adds
 //! its residual and, when asked, its tangent; the ones that carry history commit it after convergence.
 
-mod absorbing;
 mod bar;
 mod body_force;
 mod contact;
@@ -27,6 +26,7 @@ mod rigid_pressure;
 mod smooth_pressure;
 mod smoothed;
 mod source;
+mod springs;
 mod stiffness;
 mod surface_traction;
 mod traction;
@@ -36,7 +36,6 @@ mod volume_measure;
 mod water;
 mod water_levels;
 
-pub use absorbing::Absorbing;
 pub use bar::{Bar, Bars, End, Mode};
 pub use body_force::BodyForce;
 pub use contact::{Contact, answer as contact_answer};
@@ -57,6 +56,7 @@ pub use rigid::{RigidFormulaTraction, RigidInertia, RigidTraction, RigidWeight};
 pub use rigid_pressure::RigidPressure;
 pub use smooth_pressure::SmoothPressure;
 pub use source::{Source, Works};
+pub use springs::{Spring, Springs};
 pub use surface_traction::{SurfaceLoad, SurfaceTraction};
 pub use traction::{Course, FormulaTraction, Formulas, Sample, Traction, samples};
 pub use virtual_pressure::VirtualPressure;
@@ -147,6 +147,8 @@ pub struct Frame<'a, const D: usize> {
     /// The values of the nodes as combinations of those of controls (`E` of eq. 2c); `block` then has the blocks of the controls. Absent where each node
     /// has equations of its own.
     pub linear_constraints: Option<&'a LinearConstraints>,
+    /// How far (m) the nodes have gone since the run began, as [`crate::step::State::travel`].
+    pub travel: &'a [[f64; D]],
     /// The coupling of each rigid body.
     pub bodies: &'a [u32],
     /// The coupling of each bar, and its free length (m).

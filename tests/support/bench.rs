@@ -232,6 +232,8 @@ impl Bench {
             removals: Vec::new(),
             placements: Vec::new(),
             absorbing: Vec::new(),
+            springs: Vec::new().into(),
+            ties: Vec::new(),
             loaded: Vec::new(),
             begins: 0.0,
             phases: vec![Phase {

@@ -188,6 +188,8 @@ impl<K: Kinematics<2>> Stand<K> {
             removals: Vec::new(),
             placements: Vec::new(),
             absorbing: Vec::new(),
+            springs: Vec::new().into(),
+            ties: Vec::new(),
             basis: scheme,
             numerics: Numerics {
                 restore: if restored { Restore::EveryStep } else { Restore::Never },

@@ -10,7 +10,7 @@ use mpm::mesh::faces::Faces;
 use mpm::mesh::shape::CellKind;
 use mpm::surface::{ActiveBoundary, Path, Piece};
 use mpm::term::{BodyForce, EmptyCells, FacetPressure, Hydrostatic, Inertia, Phreatic, Role, Term, Traction};
-use mpm::term::{Source, SurfaceLoad, SurfaceTraction, VirtualPressure};
+use mpm::term::{Source, Spring, Springs, SurfaceLoad, SurfaceTraction, VirtualPressure};
 use mpm::time_value::TimeValue;
 use mpm::water_table::WaterLine;
 use std::f64::consts::{PI, TAU};
@@ -29,6 +29,16 @@ fn body_force<K: Kinematics<2>>(_: &Mesh<2>) -> Box<dyn Term<2>> {
     Box::new(BodyForce::<K, 2>::new(gravity.to_vec()))
 }
 
+/// Springs and dashpots at an angle under two nodes.
+fn springs(_: &Mesh<2>) -> Box<dyn Term<2>> {
+    let of = |node, [across, along]: [f64; 2]| {
+        [[across + along, across - along], [across - along, across + along]]
+            .map(|row| row.map(|k| 0.5 * k + f64::from(node)))
+    };
+    let spring = |node| Spring { node, stiffness: of(node, [70.0, 20.0]), damping: of(node, [0.3, 0.8]) };
+    Box::new(Springs([spring(0), spring(3)].into()))
+}
+
 /// The points fill every third cell, so that there are soft ones of all kinds.
 pub fn stand<K: Kinematics<2>>(kind: CellKind, make: Make, whole: bool) -> Stand<K> {
     let mesh = mesh(kind);
@@ -44,7 +54,8 @@ pub fn anywhere<K: Kinematics<2>>(stand: &Stand<K>) -> (Field, Field) {
 }
 
 fn every_tangent<K: Kinematics<2>>() {
-    let terms: [(&str, Make); 6] = [
+    let terms: [(&str, Make); 7] = [
+        ("springs", springs),
         ("body force", body_force::<K>),
         ("inertia", |_| Box::new(Inertia::<K>::default())),
         ("empty cells", |mesh| Box::new(EmptyCells::<K>::new(70.0, mesh.cells.len()))),

@@ -132,6 +132,7 @@ impl Stand {
             coupling: &self.cells,
             block: &self.nodes,
             linear_constraints: None,
+            travel: &[],
             bodies: &[],
             bars: &[],
             free_lengths: &[],

@@ -234,6 +234,10 @@ pub struct Motion {
     pub ux: Option<InTime>,
     /// Vertical displacement since the beginning of the phase, positive upwards (m).
     pub uy: Option<InTime>,
+    /// In place of `ux`, the horizontal acceleration in a dynamic phase, as of the record of an earthquake: from rest as the phase begins (m/s²).
+    pub ax: Option<InTime>,
+    /// In place of `uy`, the vertical acceleration, positive upwards (m/s²).
+    pub ay: Option<InTime>,
     /// Rotation of a rigid structure since the beginning of the phase, anticlockwise (rad).
     pub rotation: Option<InTime>,
 }

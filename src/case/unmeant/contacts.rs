@@ -5,7 +5,6 @@ use crate::case::layout::{Bounds, bounds, moves};
 use crate::geometry::box_around;
 use crate::mesh::quality::SAME;
 use crate::mesh::{Group, Mesh};
-use crate::time_value::TimeValue;
 use std::collections::BTreeSet;
 
 /// What shows on the mesh.
@@ -100,11 +99,8 @@ fn way(case: &Case, name: &str, body: &Mesh<2>) -> Bounds {
         let mut ends = [0.0; 2];
         for moved in phase.prescribed.iter().filter(|p| p.component < 2 && moves(name, body, &p.curve)) {
             let d = moved.component;
-            let kinks: Vec<f64> = match &moved.displacement {
-                TimeValue::Table(table) => table.iter().map(|[time, _]| time.min(phase.duration)).collect(),
-                _ => Vec::new(),
-            };
-            for time in kinks.into_iter().chain([phase.duration]) {
+            let kinks = moved.displacement.kinks().map(|time| time.min(phase.duration));
+            for time in kinks.chain([phase.duration]) {
                 let place = at[d] + moved.displacement.at(time);
                 (way[0][d], way[1][d]) = (way[0][d].min(place), way[1][d].max(place));
             }

@@ -33,6 +33,8 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         removals: Vec::new(),
         placements: Vec::new(),
         absorbing: Vec::new(),
+        springs: Vec::new().into(),
+        ties: Vec::new(),
         loaded: Vec::new(),
         begins: 0.0,
         phases: vec![Phase {
