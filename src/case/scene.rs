@@ -286,7 +286,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     }
     let carried = changes::carried(case, &mesh)?;
     let holds = Holds::new(case, &mesh, &bodies);
-    let (supports, free) = (holds.supports()?, springs::held(case, &mesh, &springs)?);
+    let (supports, free) = (holds.supports()?, springs::held(case, &mesh, &springs, &ties)?);
     let search = search::search(case, &mesh, fem.as_ref().map(|fem| &fem.mesh))?;
     let staged = |(number, p)| {
         let mut held = staged::held(case, &mesh, of_structures, &bodies, p)?;

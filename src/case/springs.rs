@@ -84,25 +84,36 @@ fn curves(case: &Case) -> impl Iterator<Item = &Support> {
     case.supports.iter().filter(|support| support.is_yielding())
 }
 
-/// The components in which curves with dashpots are free in phases with inertia, and held in others: those without springs.
+/// The components in which curves with dashpots are free in phases with inertia, and held in others: those with a dashpot and without a spring.
 ///
 /// # Errors
 /// Input: a curve that the mesh lacks.
-pub fn held(case: &Case, mesh: &Mesh<2>, springs: &[Spring<2>]) -> Result<Vec<Fixed>> {
-    let borne: BTreeSet<(u32, usize)> = springs
-        .iter()
-        .flat_map(|spring| (0..2).filter(|&d| spring.stiffness[d][d] != 0.0).map(|d| (spring.node, d)))
-        .collect();
+pub fn held(case: &Case, mesh: &Mesh<2>, springs: &[Spring<2>], ties: &[[u32; 2]]) -> Result<Vec<Fixed>> {
+    let tied = tied(ties);
+    let of = |n: u32| {
+        let n = *tied.get(&n).unwrap_or(&n);
+        springs.binary_search_by_key(&n, |spring| spring.node).ok().map(|i| &springs[i])
+    };
     let mut fixed = Vec::new();
     for support in curves(case).filter(|support| support.absorbing || support.dashpots.is_some()) {
         let nodes = &group(mesh, &support.curve)?.nodes;
         for component in (0..2).filter(|&d| !support.fixed[d]) {
-            let nodes = nodes.iter().copied().filter(|&n| !borne.contains(&(n, component))).collect();
-            fixed.push(Fixed { nodes, component });
+            let is_held = |n: &u32| {
+                let [borne, damped] = of(*n).map_or([false; 2], |spring| {
+                    [&spring.stiffness, &spring.damping].map(|matrix| matrix[component][component] != 0.0)
+                });
+                !borne && (damped || support.absorbing)
+            };
+            fixed.push(Fixed { nodes: nodes.iter().copied().filter(is_held).collect(), component });
         }
     }
     fixed.retain(|fixed| !fixed.nodes.is_empty());
     Ok(fixed)
+}
+
+/// The node that each tied one follows.
+fn tied(ties: &[[u32; 2]]) -> BTreeMap<u32, u32> {
+    ties.iter().map(|&[follows, followed]| (follows, followed)).collect()
 }
 
 /// The springs and dashpots of all curves, by node; a node that follows another in `ties` has its own there.
@@ -110,7 +121,7 @@ pub fn held(case: &Case, mesh: &Mesh<2>, springs: &[Spring<2>]) -> Result<Vec<Fi
 /// # Errors
 /// Input: a curve that is inclined and would have to be held, or does not bound soil or finite elements.
 pub fn springs<K: Kinematics<2>>(case: &Case, meshes: [&Mesh<2>; 2], ties: &[[u32; 2]]) -> Result<Vec<Spring<2>>> {
-    let tied: BTreeMap<u32, u32> = ties.iter().map(|&[follows, followed]| (follows, followed)).collect();
+    let tied = tied(ties);
     let mut springs: BTreeMap<u32, Spring<2>> = BTreeMap::new();
     for support in curves(case) {
         let (curve, mut acts) = (group(meshes[0], &support.curve)?, false);

@@ -14,6 +14,7 @@ mod control;
 mod distortion;
 mod drainage;
 mod driven;
+mod driven_work;
 mod energies;
 mod equilibrate;
 mod facing;

@@ -7,7 +7,7 @@
 use super::balance::{by_equation, kinetic, works_at_start};
 use super::contact;
 use super::drainage;
-use super::driven;
+use super::driven_work::by_record;
 use super::energies::{Energies, Item};
 use super::grid::Grid;
 use super::problem::Solution;
@@ -94,8 +94,8 @@ pub struct Done {
     /// What is lost as the velocities of supported and prescribed nodes take their values at once, and what those that prescribe them give to it.
     impact: f64,
     driven: f64,
-    /// What [`driven::work`] gives.
-    by_record: f64,
+    /// What [`by_record`] gives.
+    of_record: f64,
     /// What a step with inertia does not resolve (kJ): what gravity gives in it to all that falls freely.
     unresolved: f64,
     /// Without inertia: the part of the work that the forces at the beginning of the step do, in which all of them are in balance.
@@ -148,9 +148,9 @@ impl Done {
                 sum(&force) - of_given(&|e| force[e])
             }
         };
-        let (mut impact, mut driven, mut at_start, mut by_record) = (0.0, 0.0, None, 0.0);
+        let (mut impact, mut driven, mut at_start, mut of_record) = (0.0, 0.0, None, 0.0);
         if let Some(start) = start {
-            by_record = driven::work(scene, grid, state, (solution, start), dt)?;
+            of_record = by_record(scene, grid, state, (solution, start), dt)?;
             if start.velocity != state.velocity {
                 let jump: Vec<[f64; D]> = start
                     .velocity
@@ -186,7 +186,7 @@ impl Done {
             dissipated,
             impact,
             driven,
-            by_record,
+            of_record,
             at_start,
             way,
             given,
@@ -209,7 +209,7 @@ impl Done {
             dissipated,
             impact,
             driven,
-            by_record,
+            of_record,
             unresolved,
             at_start,
             ..
@@ -232,13 +232,13 @@ impl Done {
         };
         let steps = works.of(Source::Inertia) - kinetic + stress - stored - dissipated.plastic - dissipated.seepage
             + weighted
-            + by_record
+            + of_record
             + mean(ramp, &|at| at.ramp);
         let supplied = [
             (Item::Gravity, -of(Source::Gravity)),
             (Item::Loads, -of(Source::Load)),
             (Item::Water, -of(Source::Water)),
-            (Item::Supports, mean(of_supports, &|at| at.supports) + by_record),
+            (Item::Supports, mean(of_supports, &|at| at.supports) + of_record),
         ];
         let mut after = before;
         for (item, value) in supplied.into_iter().chain([

@@ -87,7 +87,7 @@ fn base_motion_is_exact_with_numerical_damping_and_in_finite_elements() {
     assert!(off(&found, &exact) < 0.006, "{}", off(&found, &exact));
     let base = column(folder.path(), "base.vx [m/s]");
     // The wavelet gives no velocity in the end.
-    assert!(base.last().unwrap().abs() < 1e-6 * base.iter().fold(0.0, |most: f64, v| most.max(v.abs())));
+    assert!(base.last().unwrap().abs() < 1e-4 * base.iter().fold(0.0, |most: f64, v| most.max(v.abs())));
 }
 
 /// With tied sides a wide column responds as a narrow one, and its base has so much more force.

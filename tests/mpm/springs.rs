@@ -42,7 +42,7 @@ fn a_block_moves_by_the_load_over_the_stiffness() {
         // Loads give what is stored, and half of q u and t u, per area, goes into the springs.
         let given = 0.5 * 2.0 * (10.0 * -last("top.uy [m]") + 4.0 * 8e-4);
         let in_springs = 0.5 * 2.0 * (10.0 * 1e-3 + 4.0 * 8e-4);
-        close(energy(folder.path(), "supplied.loads"), given - in_springs, 1e-6);
+        close(energy(folder.path(), "supplied.loads"), given - in_springs, 1e-5);
         close(energy(folder.path(), "held.stored"), given - in_springs, 1e-4);
     }
     // On an inclined base: the traction is that of the springs, and nothing deforms.
@@ -70,7 +70,7 @@ fn springs_bear_the_weight_on_a_reset_grid() {
             ],
         )
     };
-    for (restore, within) in [("numerics.restore=never", 1e-9), ("numerics.restore=every_step", 3e-4)] {
+    for (restore, within) in [("numerics.restore=never", 1e-9), ("numerics.restore=every_step", 1e-3)] {
         let folder = set(restore);
         close(last(folder.path(), "base.uy [m]"), -200.0 / 1e5, within);
         close(last(folder.path(), "base.reaction_y [kN]"), 200.0, within);
@@ -134,6 +134,22 @@ fn given_dashpots_absorb() {
         last(folder.path(), "top.ux [m]")
     });
     close(dashpots, absorbs, 1e-9);
+}
+
+/// A direction with a dashpot and no spring is held while there is no inertia, and what held it stays.
+#[test]
+fn a_dashpot_without_a_spring_is_held_without_inertia() {
+    let free = [
+        "supports={base: {springs: {tangential: 5000}, dashpots: {normal: 30}}}",
+        "phases=[{name: weight, analysis: quasi_static, duration: 1, step: {initial: 0.5}, gravity: {rate: 1}}, \
+          {name: still, analysis: dynamic, duration: 0.05, step: {initial: 0.01}}]",
+        "gravity={y: -10}",
+    ];
+    let folder = solve(COLUMN, &free);
+    let of = |name: &str| column(folder.path(), name);
+    assert!(of("base.uy [m]").iter().all(|u| u.abs() < 1e-12), "{:?}", of("base.uy [m]"));
+    let top = of("top.uy [m]");
+    assert!(top.last().unwrap() < &-1e-3 && (top[1] / top.last().unwrap() - 1.0).abs() < 1e-9, "{top:?}");
 }
 
 /// The last step done again from the checkpoint before it gives the same bytes.
