@@ -21,7 +21,7 @@ import numpy as np
 KM.Logger.GetDefaultOutput().SetSeverity(KM.Logger.Severity.WARNING)
 import KratosMultiphysics.LinearSolversApplication  # noqa: E402, F401: registers the solver named below
 import KratosMultiphysics.StructuralMechanicsApplication as SM  # noqa: E402
-import KratosMultiphysics.GeoMechanicsApplication as GM  # noqa: E402
+import KratosMultiphysics.GeoMechanicsApplication  # noqa: E402, F401
 from KratosMultiphysics.GeoMechanicsApplication.geomechanics_analysis import GeoMechanicsAnalysis  # noqa: E402
 
 SOIL = ["sand", "lift1", "lift2", "lift3"]
@@ -36,9 +36,8 @@ def materials(s):
         "DYNAMIC_VISCOSITY": 1e-6, "BIOT_COEFFICIENT": 1.0, "RETENTION_LAW": "SaturatedLaw",
         "SATURATED_SATURATION": 1.0, "GEO_DRAINAGE_TYPE": "CONSTANT_PW_FIELD",
     }  # fmt: skip
-    water = ("BIOT_COEFFICIENT", "RETENTION_LAW", "SATURATED_SATURATION", "GEO_DRAINAGE_TYPE", "DENSITY_WATER", "BULK_MODULUS_FLUID", "DYNAMIC_VISCOSITY")
     sand = dict(dry, YOUNG_MODULUS=s["young"], POISSON_RATIO=s["poisson"])
-    face = {"INTERFACE_NORMAL_STIFFNESS": s["normal_stiffness"], "INTERFACE_SHEAR_STIFFNESS": s["shear_stiffness"], **{key: dry[key] for key in water}}
+    face = {"INTERFACE_NORMAL_STIFFNESS": s["normal_stiffness"], "INTERFACE_SHEAR_STIFFNESS": s["shear_stiffness"], **dry}
     # Elastic sand has the same law with a strength that is not reached: the linear elastic one knows no initial stress.
     elastic = s["model"] == "elastic"
     cohesion = 1e9 if elastic else s["cohesion"]
@@ -136,13 +135,12 @@ class Wall(GeoMechanicsAnalysis):
         super().Initialize()
         self.part = self._GetSolver().main_model_part
         s, info = self.s, self.part.ProcessInfo
-        nodes = self.mesh["nodes"]
-        left, right, low = nodes[:, 0].min(), s["right"], nodes[:, 1].min()
+        (left, low), right = self.mesh["nodes"].min(0), self.mesh["nodes"][:, 0].max()
         self._GetSolver().GetComputingModelPart().AddConditions([c.Id for c in self.part.GetSubModelPart("loads").Conditions])
         for node in self.part.Nodes:
             node.Fix(KM.WATER_PRESSURE)
             node.Fix(KM.DISPLACEMENT_Z)
-            if node.Y < low + 1e-6 or node.X < left + 1e-6 or node.X > s["right"] - 1e-6:
+            if node.Y < low + 1e-6 or node.X < left + 1e-6 or node.X > right - 1e-6:
                 node.Fix(KM.DISPLACEMENT_X)
             if node.Y < low + 1e-6:
                 node.Fix(KM.DISPLACEMENT_Y)
@@ -188,12 +186,11 @@ class Wall(GeoMechanicsAnalysis):
                     node.Fix(KM.DISPLACEMENT_Y)
         if stage.get("prestress"):
             self.pull = stage["prestress"]
-        if stage.get("anchor"):
-            if not self.stiffness:
-                self.stiffness = self.s["anchor_stiffness"]
-                # The rod is free of further strain where its head is now.
-                self.pull += self.stiffness * self.head.GetSolutionStepValue(KM.DISPLACEMENT_X)
-                self.set_anchor()
+        if stage.get("anchor") and not self.stiffness:
+            self.stiffness = self.s["anchor_stiffness"]
+            # The rod is free of further strain where its head is now.
+            self.pull += self.stiffness * self.head.GetSolutionStepValue(KM.DISPLACEMENT_X)
+            self.set_anchor()
 
     def set_anchor(self):
         for element in self.part.GetSubModelPart("anchor").Elements:
