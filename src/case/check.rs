@@ -71,6 +71,7 @@ impl Checker {
         let has_contact = !contacts.is_empty() || !rollers.is_empty();
         let numerics = self.numerics(file, has_contact, &root.key("numerics"));
         let mut phases = self.phases(file, &numerics, &root.key("phases"));
+        self.outflows(file, (&numerics, &phases), &root.key("supports"));
         let mut water = self.water(file, &root);
         let equilibrium = self.equilibrium(file, &mut phases, water.as_mut(), &root);
         let mut case = Case {
@@ -191,7 +192,7 @@ impl Checker {
             if held.absorbing {
                 self.absorbing(file, curve, held, &path.key("absorbing"));
             }
-            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) && !held.absorbing {
+            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) && !held.absorbing && !held.outflow {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0`, `uy: 0` or `un: 0`");
             }
             checked.push(Support {
@@ -201,6 +202,7 @@ impl Checker {
                 across: held.un.is_some(),
                 drained: held.pore_pressure.is_some(),
                 absorbing: held.absorbing,
+                outflow: held.outflow,
             });
         }
         checked

@@ -219,6 +219,8 @@ pub struct Support {
     pub drained: bool,
     /// Whether waves leave there.
     pub absorbing: bool,
+    /// Whether soil leaves there.
+    pub outflow: bool,
 }
 
 /// The velocity of a region before the first phase.

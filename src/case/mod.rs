@@ -28,6 +28,7 @@ pub mod locate;
 mod materials;
 mod mesh;
 pub mod names;
+mod outflow;
 mod outputs;
 mod over_depth;
 pub mod parts;

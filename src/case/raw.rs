@@ -229,6 +229,9 @@ pub struct Components {
     /// the soil beside it, in place of supports.
     #[serde(default)]
     pub absorbing: bool,
+    /// Whether soil leaves the model there, in dynamic phases that neither prescribe the curve nor have it as a wall.
+    #[serde(default)]
+    pub outflow: bool,
 }
 
 /// Contact between a structure or a wall and soil, or between two bodies.

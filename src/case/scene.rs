@@ -7,7 +7,7 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    absorbing, bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts,
+    absorbing, bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outflow, outputs, parts,
     placed, pores, removed, scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
 };
 use crate::error::{Error, Result};
@@ -297,6 +297,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();
+    let outflows = outflow::outflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -316,6 +317,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         phases,
         removals,
         placements,
+        outflows,
         traced,
         loaded: loaded.into_iter().collect(),
         basis,

@@ -65,6 +65,9 @@ fn acting(case: &Case) -> Vec<(String, String)> {
         if support.across {
             add(&support.curve, "un = 0".to_owned());
         }
+        if support.outflow {
+            add(&support.curve, "outflow".to_owned());
+        }
         if support.drained {
             add(&support.curve, "drained".to_owned());
         }

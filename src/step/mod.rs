@@ -29,6 +29,7 @@ mod momentum;
 mod newton;
 mod nodal_fit;
 mod obstacles;
+mod outflow;
 pub mod overlap;
 mod placement;
 mod pore_pressure;
@@ -59,6 +60,7 @@ pub use control::Controller;
 pub use energies::{Energies, ITEMS, Item, Side};
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
+pub use outflow::Outflow;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
@@ -259,6 +261,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let held = !state.search_geometry.is_empty();
         let restore = match scene.numerics.restore {
             _ if held => false,
+            _ if self.grid.has_outflow(scene, state) => true,
             Restore::EveryStep => true,
             Restore::Never => false,
             Restore::Quality { least, stretch } => {

@@ -7,6 +7,7 @@ use super::family::Interpolations;
 use super::fem;
 use super::ghost_faces;
 use super::nodal_fit::Filled;
+use super::outflow;
 use super::predictor;
 use super::pressure;
 use super::relax::{self, Relaxed};
@@ -35,6 +36,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     interpolations: &mut Interpolations<D>,
     relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
+    let out = outflow::release(scene, state, relax::mesh(scene, relaxed.as_ref()))?;
     let (nodes, position) = (state.nodes.clone(), state.points.position.clone());
     let (cell, parametric) = (state.points.cell.clone(), state.parametric.clone());
     let before = relaxed.take();
@@ -68,7 +70,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weights = scene.quadrature.weigh(&grid, &mut state.front);
-    state.weights.notes = projected.0.into_iter().chain(domains).collect();
+    state.weights.notes = out.into_iter().chain(projected.0).chain(domains).collect();
     state.weights.beyond = projected.1;
     renew::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
     predictor::carry(here, mesh, state);

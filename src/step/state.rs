@@ -64,6 +64,8 @@ pub struct State<const D: usize> {
     pub in_play: f64,
     /// The balance of energy; absent before the run begins.
     pub energies: Option<Energies>,
+    /// Mass (t) and volume (m³) that have left through each curve of [`Scene::outflows`]; empty before the first points do.
+    pub left: Vec<[f64; 2]>,
     /// Force of the supports (kN) in the last step, as [`super::Report::reaction`]; empty before the first one.
     pub reaction: Vec<[f64; D]>,
     /// Where (m) the material points were as the phase, or the part of it without inertia, began; empty where nothing asks how far they
