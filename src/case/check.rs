@@ -326,6 +326,7 @@ impl Checker {
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
         }
         self.contacts_twice(case, file);
+        self.passed(file);
         self.pores(case, file);
         self.scheme(case);
         let undrained = case.materials.iter().any(Material::has_pore_pressure);

@@ -4,18 +4,19 @@ use super::check::Checker;
 use super::checked::{Case, Contact, Numerics, Phase, Restore, Touching};
 use super::find::group;
 use super::locate::{At, Path};
-use super::raw::{self, Analysis, Quantity};
+use super::raw::{self, Analysis};
 use crate::error::{Error, Result};
-use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
+use crate::mesh::shape::CellKind;
+use crate::mesh::{Group, Mesh};
 use crate::step::Outflow;
 use crate::time_value::TimeValue;
 use std::collections::{HashMap, HashSet};
 
-/// Why a scheme lets no soil leave; `None` where it does.
-fn unfit(numerics: &Numerics) -> Option<String> {
+/// The name of a scheme that lets no soil pass the boundary of the mesh; `None` of others.
+pub(super) fn unfit(numerics: &Numerics) -> Option<&'static str> {
     let name = numerics.basis.name();
-    (!["mpm", "ddmp"].contains(&name)).then(|| format!("outflow with `gradient: {name}` is not available yet"))
+    (!["mpm", "ddmp"].contains(&name)).then_some(name)
 }
 
 impl Checker {
@@ -36,7 +37,8 @@ impl Checker {
                 let problem = "a grid that is never reset takes its boundary along with the soil";
                 self.issue(&path, At::Key, problem, "take `restore: never` out of `numerics`");
             }
-            if let Some(problem) = unfit(numerics) {
+            if let Some(name) = unfit(numerics) {
+                let problem = format!("outflow with `gradient: {name}` is not available yet");
                 self.issue(&path, At::Key, problem, "choose `gradient: mpm` or `gradient: ddmp` under `numerics`");
             }
             if file.water.is_some() || file.materials.values().any(|material| material.permeability.is_some()) {
@@ -72,15 +74,6 @@ impl Checker {
                 self.issue(&path, At::Key, problem, "prescribe 0, which closes it, or nothing");
             }
         }
-        for (i, entry) in file.output.history.iter().enumerate() {
-            let leaves = |curve: &String| file.supports.get(curve).is_some_and(|held| held.outflow);
-            let counts = |quantity: &Quantity| matches!(quantity, Quantity::MassOut | Quantity::VolumeOut);
-            if entry.quantities.iter().any(counts) && !entry.on.as_ref().is_some_and(leaves) {
-                let path = Path::default().key("output").key("history").index(i);
-                let problem = "mass_out and volume_out are those of a curve through which soil leaves";
-                self.issue(&path, At::Key, problem, "name one `on`, and give it `outflow: true` under `supports`");
-            }
-        }
     }
 }
 
@@ -94,15 +87,16 @@ fn is_open(walls: &[Wall], phase: &Phase, curve: &str) -> bool {
     !phase.prescribed.iter().any(|p| p.curve == curve) && !walls.iter().any(holds)
 }
 
-/// The curves of a case on the grid `mesh`, with those that finite elements share.
+/// The sides of a curve on the boundary of the grid `mesh`, by cell and number of the side; `fem` are the finite elements beside it.
 ///
 /// # Errors
-/// Input: a curve that is not on the boundary of the mesh of material points.
-pub fn outflows(case: &Case, (mesh, locator): (&Mesh<2>, &Locator<2>), fem: Option<&Mesh<2>>) -> Result<Vec<Outflow>> {
-    let curves: Vec<&str> = case.supports.iter().filter(|s| s.outflow).map(|s| s.curve.as_str()).collect();
-    if curves.is_empty() {
-        return Ok(Vec::new());
-    }
+/// Input, at `place`: a curve that is not on the boundary of the mesh of material points.
+pub(super) fn boundary_sides(
+    (mesh, locator): (&Mesh<2>, &Locator<2>),
+    fem: Option<&Mesh<2>>,
+    curve: &Group,
+    place: &dyn Fn() -> String,
+) -> Result<Vec<(u32, u8)>> {
     let sorted = |mut ends: [u32; 2]| {
         ends.sort_unstable();
         ends
@@ -115,28 +109,32 @@ pub fn outflows(case: &Case, (mesh, locator): (&Mesh<2>, &Locator<2>), fem: Opti
     let boundary: HashMap<[u32; 2], (u32, u8)> =
         locator.faces.boundary.iter().map(|side| (of_side(side), *side)).collect();
     let of_elements: HashSet<u32> = fem.iter().flat_map(|fem| fem.cells.nodes.iter().copied()).collect();
+    let side = |(_, nodes): &(CellKind, Vec<u32>)| {
+        let shared = of_elements.contains(&nodes[0]) && of_elements.contains(&nodes[1]);
+        boundary.get(&sorted([nodes[0], nodes[1]])).filter(|_| !shared).copied().ok_or_else(|| {
+            let x = mesh.nodes[nodes[0] as usize];
+            let problem = format!("at {x:.3?} m the curve is not on the boundary of the mesh of material points");
+            Error::input(place(), problem, "draw it where the regions of kind mpm and buffer end, with nothing beyond")
+        })
+    };
+    curve.facets.iter().map(side).collect()
+}
+
+/// The curves of a case through which soil leaves the grid `mesh`.
+///
+/// # Errors
+/// As [`boundary_sides`].
+pub fn outflows(case: &Case, grid: (&Mesh<2>, &Locator<2>), fem: Option<&Mesh<2>>) -> Result<Vec<Outflow>> {
     let wall = |contact: &'_ Contact| match &contact.structure {
         Touching::Wall(curve) => Some((curve.clone(), contact.name.clone())),
         Touching::Structure(_) => None,
     };
     let walls: Vec<_> = case.contacts.iter().filter_map(wall).collect();
     let walls: Vec<Wall> = walls.iter().map(|(curve, name)| (curve.as_str(), name.as_deref())).collect();
-    let outflow = |name: &str| {
-        let mut sides = Vec::new();
-        for (_, nodes) in &group(mesh, name)?.facets {
-            let shared = of_elements.contains(&nodes[0]) && of_elements.contains(&nodes[1]);
-            let Some(side) = boundary.get(&sorted([nodes[0], nodes[1]])).filter(|_| !shared) else {
-                let x = mesh.nodes[nodes[0] as usize];
-                return Err(Error::input(
-                    format!("supports.{name}.outflow"),
-                    format!("at {x:.3?} m the curve is not on the boundary of the mesh of material points"),
-                    "draw it where the regions of kind mpm and buffer end, with nothing beyond",
-                ));
-            };
-            sides.push(*side);
-        }
+    let outflow = |name: &String| {
+        let sides = boundary_sides(grid, fem, group(grid.0, name)?, &|| format!("supports.{name}.outflow"))?;
         let open = case.phases.iter().map(|phase| is_open(&walls, phase, name)).collect();
-        Ok(Outflow { name: name.to_owned(), sides, open })
+        Ok(Outflow { name: name.clone(), sides, open })
     };
-    curves.into_iter().map(outflow).collect()
+    case.supports.iter().filter(|support| support.outflow).map(|support| outflow(&support.curve)).collect()
 }

@@ -7,7 +7,7 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    absorbing, bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outflow, outputs, parts,
+    absorbing, bars, changes, contact_interfaces, controls, curve_loads, drained_surface, inflow, layout, outflow, outputs, parts,
     placed, pores, removed, scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
 };
 use crate::error::{Error, Result};
@@ -298,6 +298,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
     let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();
     let outflows = outflow::outflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
+    let inflows = inflow::inflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -318,6 +319,7 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         removals,
         placements,
         outflows,
+        inflows,
         traced,
         loaded: loaded.into_iter().collect(),
         basis,
@@ -434,7 +436,7 @@ fn phase(
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset_displacements: phase.reset_displacements,
-        stops: stops::of(phase.duration, every, values.flat_map(TimeValue::kinks)),
+        stops: stops::of(phase.duration, every, values.chain(phase.inflows.iter().map(|inflow| &inflow.velocity)).flat_map(TimeValue::kinks)),
     })
 }
 

@@ -83,6 +83,9 @@ fn acting(case: &Case) -> Vec<(String, String)> {
         for prescribed in &phase.prescribed {
             add(&prescribed.curve, "moved".to_owned());
         }
+        for inflow in &phase.inflows {
+            add(&inflow.curve, "inflow".to_owned());
+        }
         for traction in &phase.tractions {
             add(&traction.curve, "loaded".to_owned());
         }

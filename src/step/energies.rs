@@ -10,6 +10,7 @@ pub enum Item {
     Water,
     Supports,
     Outflow,
+    Inflow,
     Kinetic,
     Stored,
     Plastic,
@@ -48,7 +49,7 @@ impl Side {
 }
 
 /// The entries with their names, in the order of [`Item`].
-pub const ITEMS: [(Item, &str, Side); 19] = [
+pub const ITEMS: [(Item, &str, Side); 20] = [
     (Item::Initial, "initial", Side::Supplied),
     (Item::Changes, "changes", Side::Supplied),
     (Item::Gravity, "gravity", Side::Supplied),
@@ -56,6 +57,7 @@ pub const ITEMS: [(Item, &str, Side); 19] = [
     (Item::Water, "water", Side::Supplied),
     (Item::Supports, "supports", Side::Supplied),
     (Item::Outflow, "outflow", Side::Supplied),
+    (Item::Inflow, "inflow", Side::Supplied),
     (Item::Kinetic, "kinetic", Side::Held),
     (Item::Stored, "stored", Side::Held),
     (Item::Plastic, "plastic", Side::Dissipated),

@@ -22,6 +22,7 @@ mod free;
 mod ghost_faces;
 mod grid;
 mod impulse;
+mod inflow;
 mod leaving;
 mod mass;
 mod materials;
@@ -60,6 +61,7 @@ pub use control::Controller;
 pub use energies::{Energies, ITEMS, Item, Side};
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
+pub use inflow::Inflow;
 pub use outflow::Outflow;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
@@ -261,7 +263,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let held = !state.search_geometry.is_empty();
         let restore = match scene.numerics.restore {
             _ if held => false,
-            _ if self.grid.has_outflow(scene, state) => true,
+            _ if inflow::is_due(scene, state) || self.grid.has_outflow(scene, state) => true,
             Restore::EveryStep => true,
             Restore::Never => false,
             Restore::Quality { least, stretch } => {
@@ -400,6 +402,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
         timed(Activity::Contact, || contact::project_out(scene, state, &mut contacts));
         state.commit_bars(scene);
+        inflow::count(scene, state, dt);
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;

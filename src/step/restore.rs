@@ -6,6 +6,7 @@ use super::facing;
 use super::family::Interpolations;
 use super::fem;
 use super::ghost_faces;
+use super::inflow;
 use super::nodal_fit::Filled;
 use super::outflow;
 use super::predictor;
@@ -37,6 +38,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
     let out = outflow::release(scene, state, relax::mesh(scene, relaxed.as_ref()))?;
+    let (strips, new) = inflow::enter::<D, K>(scene, state, relax::mesh(scene, relaxed.as_ref()))?;
     let (nodes, position) = (state.nodes.clone(), state.points.position.clone());
     let (cell, parametric) = (state.points.cell.clone(), state.parametric.clone());
     let before = relaxed.take();
@@ -67,6 +69,7 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         parametric: &state.parametric,
         interpolation: &interpolations.integration,
         active: &state.active,
+        entering: (&strips, new),
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weights = scene.quadrature.weigh(&grid, &mut state.front);

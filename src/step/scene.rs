@@ -1,6 +1,7 @@
 //! A scene: everything that does not change while it is solved.
 
 use super::change::{Change, Material};
+use super::inflow::Inflow;
 use super::outflow::Outflow;
 use crate::contact::Interface;
 use crate::dofs::{Places, RigidDofs};
@@ -52,6 +53,8 @@ pub struct Scene<const D: usize> {
     pub placements: Vec<Option<Placement<D>>>,
     /// Curves through which soil leaves the model.
     pub outflows: Vec<Outflow>,
+    /// Curves through which soil enters the model.
+    pub inflows: Vec<Inflow<D>>,
     /// Time (s) at which the run begins: 0, or less where its first phase comes before those of the user.
     pub begins: f64,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.

@@ -18,6 +18,7 @@ mod equilibrium;
 mod everyday;
 mod excavation;
 mod fill;
+mod flow;
 mod footings;
 mod ghost;
 mod gravity;
