@@ -192,7 +192,10 @@ impl Checker {
             if held.absorbing {
                 self.absorbing(file, curve, held, &path.key("absorbing"));
             }
-            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) && !held.absorbing && !held.outflow {
+            if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none)
+                && !held.absorbing
+                && !held.outflow
+            {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0`, `uy: 0` or `un: 0`");
             }
             checked.push(Support {

@@ -81,7 +81,8 @@ impl Checker {
             self.issue(path, At::Key, problem, "choose `gradient: mpm` or `gradient: ddmp` under `numerics`");
         }
         if numerics.quadrature == Quadrature::Points {
-            let problem = "new soil needs the surface of the soil that is there, which `quadrature: points` does not follow";
+            let problem =
+                "new soil needs the surface of the soil that is there, which `quadrature: points` does not follow";
             self.issue(path, At::Key, problem, "choose `quadrature: resampled` under `numerics`");
         }
         if file.water.is_some() || file.materials.values().any(|material| material.permeability.is_some()) {
@@ -173,7 +174,8 @@ fn inflow(
         let soil = changes::at(case, mesh, number, &inflow.region)?;
         if let Some((cell, _)) = sides.iter().find(|(cell, _)| mesh.cells.region[*cell as usize] != soil.region) {
             let beside = &mesh.regions[usize::from(mesh.cells.region[*cell as usize])];
-            let problem = format!("the curve is beside `{beside}` and not beside `{}`, whose soil is to enter", first.region);
+            let problem =
+                format!("the curve is beside `{beside}` and not beside `{}`, whose soil is to enter", first.region);
             let remedy = "name the region of kind mpm at the curve under `region`; a thin one is enough";
             return Err(Error::input(place(), problem, remedy));
         }
@@ -182,9 +184,11 @@ fn inflow(
         }
         phases.push(Some((soil, inflow.velocity.clone())));
     }
+    let gravity = case.phases.iter().map(|phase| phase.gravity.clone()).collect();
     let row = sides.len() * points;
     // A wall along the flow bounds it; a side that goes on beyond an end does not.
-    let others = locator.faces.boundary.iter().filter(|side| !sides.contains(side)).map(|side| Side::of(mesh, *side).ends);
+    let others =
+        locator.faces.boundary.iter().filter(|side| !sides.contains(side)).map(|side| Side::of(mesh, *side).ends);
     let mut open = [false; 2];
     for other in others {
         for (end, beyond) in [(0, -1.0), (1, 1.0)] {
@@ -195,5 +199,5 @@ fn inflow(
             open[end] |= beyond * along > SAME * length;
         }
     }
-    Ok(step::Inflow { name: name.to_owned(), ends, inward, open, spacing: length / row as f64, row, phases })
+    Ok(step::Inflow { name: name.to_owned(), ends, inward, open, spacing: length / row as f64, row, gravity, phases })
 }

@@ -22,7 +22,8 @@ pub(super) fn unfit(numerics: &Numerics) -> Option<&'static str> {
 impl Checker {
     /// Refuses curves through which soil cannot leave.
     pub(super) fn outflows(&mut self, file: &raw::CaseFile, (numerics, phases): (&Numerics, &[Phase]), path: &Path) {
-        let walls: Vec<Wall> = file.contacts.iter().filter_map(|c| Some((c.wall.as_deref()?, c.name.as_deref()))).collect();
+        let walls: Vec<Wall> =
+            file.contacts.iter().filter_map(|c| Some((c.wall.as_deref()?, c.name.as_deref()))).collect();
         for (curve, held) in file.supports.iter().filter(|(_, held)| held.outflow) {
             let path = path.key(curve).key("outflow");
             let components = [held.ux, held.uy, held.un, held.rotation, held.pore_pressure];
@@ -31,7 +32,12 @@ impl Checker {
                 self.issue(&path, At::Key, problem, "leave `outflow: true` alone in the entry");
             }
             if file.regions.contains_key(curve) {
-                self.issue(&path, At::Key, "soil leaves through a physical curve", "name the curve in place of the region");
+                self.issue(
+                    &path,
+                    At::Key,
+                    "soil leaves through a physical curve",
+                    "name the curve in place of the region",
+                );
             }
             if numerics.solver.restore == Restore::Never {
                 let problem = "a grid that is never reset takes its boundary along with the soil";

@@ -37,7 +37,8 @@ impl Case {
             let names: Vec<&String> = names.collect();
             self.regions.iter().map(|r| r.name.as_str()).filter(|name| names.iter().any(|n| n == name)).collect()
         };
-        let stages: Vec<_> = self.phases.iter().map(|phase| [of(&mut phase.removed.iter()), of(&mut phase.coming())]).collect();
+        let stages: Vec<_> =
+            self.phases.iter().map(|phase| [of(&mut phase.removed.iter()), of(&mut phase.coming())]).collect();
         let all = self.regions.iter().filter(|region| matches!(region.content, Content::Mpm { .. }));
         before(all.map(|region| region.name.as_str()), &stages, number)
     }

@@ -7,8 +7,8 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    absorbing, bars, changes, contact_interfaces, controls, curve_loads, drained_surface, inflow, layout, outflow, outputs, parts,
-    placed, pores, removed, scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
+    absorbing, bars, changes, contact_interfaces, controls, curve_loads, drained_surface, inflow, layout, outflow,
+    outputs, parts, placed, pores, removed, scheme, search, seeded, staged, stops, unconnected, unmeant, wall, water,
 };
 use crate::error::{Error, Result};
 use crate::gravity::Gravity;
@@ -436,7 +436,11 @@ fn phase(
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset_displacements: phase.reset_displacements,
-        stops: stops::of(phase.duration, every, values.chain(phase.inflows.iter().map(|inflow| &inflow.velocity)).flat_map(TimeValue::kinks)),
+        stops: stops::of(
+            phase.duration,
+            every,
+            values.chain(phase.inflows.iter().map(|inflow| &inflow.velocity)).flat_map(TimeValue::kinks),
+        ),
     })
 }
 

@@ -23,8 +23,10 @@ impl<const D: usize> Strip<D> {
         let along = length * foot(x, &self.ends);
         let within = |open: bool, side: f64| if open || side < -NOWHERE.sqrt() * length { side } else { f64::INFINITY };
         let behind = if depth < -NOWHERE.sqrt() * length { depth } else { f64::INFINITY };
-        let level =
-            within(self.open[0], along).min(within(self.open[1], length - along)).min(behind).min(self.thickness - depth);
+        let level = within(self.open[0], along)
+            .min(within(self.open[1], length - along))
+            .min(behind)
+            .min(self.thickness - depth);
         if level.abs() < NOWHERE.sqrt() * length { 0.0 } else { level }
     }
 }

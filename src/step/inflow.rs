@@ -10,6 +10,7 @@ use super::scene::{Scene, Soil};
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::geometry::{Line, at, distance};
+use crate::gravity::Gravity;
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
@@ -29,6 +30,8 @@ pub struct Inflow<const D: usize> {
     /// How far (m) points are apart, and how many of them a row has.
     pub spacing: f64,
     pub row: usize,
+    /// The acceleration of gravity in each phase.
+    pub gravity: Vec<Gravity<D>>,
     /// The soil that enters and its velocity (m/s) across the curve in each phase.
     pub phases: Vec<Option<(Soil, TimeValue)>>,
 }
@@ -87,7 +90,9 @@ pub fn enter<const D: usize, K: Kinematics<D>>(
         if let Some(x) = state.points.position[..before].iter().find(|x| strip.level(x) > 0.0) {
             return Err(Error::analysis(
                 place(),
-                format!("soil at {x:.4?} m is in the way of what enters: the model is full there, or the soil leaves the curve more slowly than it comes"),
+                format!(
+                    "soil at {x:.4?} m is in the way of what enters: the model is full there, or the soil leaves the curve more slowly than it comes"
+                ),
                 "end the phase before, by `until` with a bound on mass_in, take a smaller `velocity`, or draw the curve higher above the soil",
             ));
         }
@@ -101,7 +106,11 @@ pub fn enter<const D: usize, K: Kinematics<D>>(
                 let x = std::array::from_fn(|d| on[d] + depth * inflow.inward[d]);
                 let (cell, _) = locator.locate(mesh, &x, None).ok_or_else(|| {
                     let problem = format!("a row of it would lie outside the mesh at {x:.4?} m");
-                    Error::analysis(place(), problem, "take smaller steps (step.max), or give the mesh room behind the curve")
+                    Error::analysis(
+                        place(),
+                        problem,
+                        "take smaller steps (step.max), or give the mesh room behind the curve",
+                    )
                 })?;
                 placed.position.push(x);
                 placed.volumes.push(K::measure(&on) * length / count * due / rows as f64);
@@ -111,7 +120,7 @@ pub fn enter<const D: usize, K: Kinematics<D>>(
         let speed = velocity.at(state.phase_time);
         let mut points = placement::points(state, soil, &placed);
         points.velocity.fill(inflow.inward.map(|n| speed * n));
-        points.acceleration.fill(scene.gravity);
+        points.acceleration.fill(inflow.gravity[state.phase].at(state.phase_time));
         let mass: f64 = points.mass.iter().sum();
         if let Some(energies) = &mut state.energies {
             let kinetic = 0.5 * mass * speed * speed;

@@ -35,7 +35,11 @@ impl Outflow {
 }
 
 /// The material points that have passed a curve, ascending, with its number.
-pub fn passed<const D: usize>(scene: &Scene<D>, state: &State<D>, grid: (&Mesh<D>, &Locator<D>)) -> Vec<(usize, usize)> {
+pub fn passed<const D: usize>(
+    scene: &Scene<D>,
+    state: &State<D>,
+    grid: (&Mesh<D>, &Locator<D>),
+) -> Vec<(usize, usize)> {
     let (mesh, locator) = grid;
     if !scene.outflows.iter().any(|outflow| outflow.was_open(state)) {
         return Vec::new();
@@ -87,7 +91,9 @@ pub fn release<const D: usize>(
         return Err(Error::analysis(
             format!("outflow `{name}`"),
             "all soil has left the model",
-            format!("end the phase before, by `until: [{{of: {name}, quantity: mass_out, above: …}}]` with that in the history"),
+            format!(
+                "end the phase before, by `until: [{{of: {name}, quantity: mass_out, above: …}}]` with that in the history"
+            ),
         ));
     }
     state.left.resize(scene.outflows.len(), [0.0; 2]);
