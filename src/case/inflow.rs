@@ -156,6 +156,7 @@ fn inflow(
         let remedy = "draw a straight curve, or an inflow for each straight piece";
         return Err(Error::input(place(), "soil enters through one straight curve", remedy));
     }
+    let own = &group(mesh, name)?.nodes;
     let way = [0, 1].map(|d| (ends[1][d] - ends[0][d]) / length);
     let centre = |c: u32| {
         let x = mesh.coordinates(c as usize);
@@ -164,6 +165,15 @@ fn inflow(
     let inside = centre(sides[0].0);
     let turned = (inside[0] - ends[0][0]) * -way[1] + (inside[1] - ends[0][1]) * way[0] > 0.0;
     let inward = if turned { [-way[1], way[0]] } else { [way[1], -way[0]] };
+    // A node at an end of the curve that is held holds the soil that enters.
+    for support in &case.supports {
+        let holds = (0..2).any(|d| support.fixed[d] && inward[d].abs() > SAME);
+        if holds && mesh.group(&support.curve).is_some_and(|curve| curve.nodes.iter().any(|n| own.contains(n))) {
+            let problem = format!("`{}`, which is held along the flow, begins at a node of the curve", support.curve);
+            let remedy = format!("take the support of `{}` out, or make it a wall of `contacts`", support.curve);
+            return Err(Error::input(place(), problem, remedy));
+        }
+    }
     let mut phases = Vec::new();
     let mut points = 1;
     for (number, phase) in case.phases.iter().enumerate() {
