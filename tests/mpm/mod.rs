@@ -52,6 +52,7 @@ mod slow {
     mod cone_in_sand;
     mod cpt_sand;
     mod fast_flow;
+    mod filled_silo;
     mod footing_on_sand;
     mod general_position;
     mod nearly_incompressible_sand;
