@@ -71,6 +71,7 @@ impl Checker {
         let has_contact = !contacts.is_empty() || !rollers.is_empty();
         let numerics = self.numerics(file, has_contact, &root.key("numerics"));
         let mut phases = self.phases(file, &numerics, &root.key("phases"));
+        self.outflows(file, (&numerics, &phases), &root.key("supports"));
         let mut water = self.water(file, &root);
         let equilibrium = self.equilibrium(file, &mut phases, water.as_mut(), &root);
         let mut case = Case {
@@ -192,7 +193,11 @@ impl Checker {
             self.tied(file, curve, held, &path);
             let [springs, dashpots] = [("springs", held.springs), ("dashpots", held.dashpots)]
                 .map(|(key, given)| self.yielding(given, &path.key(key)));
-            let yields = held.absorbing || held.springs.is_some() || held.dashpots.is_some() || held.tied.is_some();
+            let yields = held.outflow
+                || held.absorbing
+                || held.springs.is_some()
+                || held.dashpots.is_some()
+                || held.tied.is_some();
             if displacements.iter().chain([&held.pore_pressure]).all(Option::is_none) && !yields {
                 self.issue(&path, At::Key, "nothing is held", "add `ux: 0`, `uy: 0` or `un: 0`");
             }
@@ -206,6 +211,7 @@ impl Checker {
                 springs,
                 dashpots,
                 tied: held.tied.clone(),
+                outflow: held.outflow,
             });
         }
         checked
@@ -299,6 +305,7 @@ impl Checker {
             self.issue(&root.key("output").key("every"), At::Value, problem, "write them less often");
         }
         self.contacts_twice(case, file);
+        self.passed(file);
         self.pores(case, file);
         self.scheme(case);
         let undrained = case.materials.iter().any(Material::has_pore_pressure);

@@ -224,6 +224,8 @@ pub struct Support {
     pub dashpots: Option<[f64; 2]>,
     /// The side that it is tied to.
     pub tied: Option<String>,
+    /// Whether soil leaves there.
+    pub outflow: bool,
 }
 
 /// The velocity of a region before the first phase.

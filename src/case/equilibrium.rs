@@ -40,6 +40,7 @@ impl Checker {
             absent: first.absent.clone(),
             removed: Vec::new(),
             placed: Vec::new(),
+            inflows: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
             reset_displacements: false,

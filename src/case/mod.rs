@@ -20,6 +20,7 @@ mod equilibrium;
 mod find;
 mod histories;
 mod incompressible;
+mod inflow;
 pub mod issue;
 pub mod layout;
 mod loads;
@@ -27,6 +28,7 @@ pub mod locate;
 mod materials;
 mod mesh;
 pub mod names;
+mod outflow;
 mod outputs;
 mod over_depth;
 pub mod parts;
@@ -216,7 +218,7 @@ impl Loaded {
     pub fn shaping(&self, product: Product) -> Map<String, Value> {
         let mut keys: Vec<&str> =
             raw::SHAPES.into_iter().filter(|(_, shapes)| shapes.contains(&product)).map(|(key, _)| key).collect();
-        let comes = self.case.phases.iter().any(|phase| !phase.placed.is_empty());
+        let comes = self.case.phases.iter().any(|phase| phase.coming().next().is_some());
         if product == Product::Points && (self.case.water.is_some() || comes) {
             // The soil begins under the water of the first phase, and without the weight of what comes later.
             keys.push("phases");

@@ -85,6 +85,9 @@ pub fn check(case: &Case, groups: &Groups) -> Vec<Issue> {
         for curve in curves {
             names.held(case, curve, &path.key("prescribe").key(curve));
         }
+        for inflow in &phase.inflows {
+            names.curve(&inflow.curve, &path.key("inflow").key(&inflow.curve), At::Key);
+        }
         for traction in &phase.tractions {
             names.loaded(traction, &path.key("tractions").index(traction.entry).key("on"));
         }

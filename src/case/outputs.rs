@@ -67,11 +67,19 @@ pub fn watches(case: &Case, scene: &Scene<2>) -> Result<Vec<Watch>> {
             On::Named(name) => named(case, mesh, scene, name)?,
             On::Place(place) => WatchedOn::Soil(place.clone()),
         };
+        let is_named = |name: &String| entry.named() == Some(name);
+        let leaves = scene.outflows.iter().position(|outflow| is_named(&outflow.name));
+        let enters = scene.inflows.iter().position(|inflow| is_named(&inflow.name));
         let touches = entry.quantities.iter().any(|q| matches!(q, Quantity::Contact(_)));
         let curve = entry.named().and_then(|name| mesh.group(name));
         let on = match curve.filter(|_| touches && !matches!(on, WatchedOn::Body(_))) {
             Some(curve) => WatchedOn::Touched(Box::new(on), side(case, mesh, scene, curve)?),
             None => on,
+        };
+        let on = match (leaves, enters) {
+            (Some(number), _) => WatchedOn::Outflow(Box::new(on), number),
+            (None, Some(number)) => WatchedOn::Inflow(Box::new(on), number),
+            (None, None) => on,
         };
         Ok(Watch { name: entry.name.clone(), on, quantities: entry.quantities.clone() })
     };

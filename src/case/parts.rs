@@ -38,7 +38,7 @@ pub fn of_series(case: &Case, mesh: &Mesh<2>) -> Regions {
         axisymmetric: case.geometry == Geometry::Axisymmetric,
         resets: case.phases.iter().filter(|phase| phase.reset_displacements).map(|phase| phase.name.clone()).collect(),
         absent: case.phases.iter().map(absent).collect(),
-        changes: case.phases.iter().any(|phase| !phase.removed.is_empty() || !phase.placed.is_empty()),
+        changes: case.phases.iter().any(|phase| !phase.removed.is_empty() || phase.coming().next().is_some()),
     }
 }
 

@@ -31,8 +31,9 @@ impl Checker {
             let removed = self.removed(i, (file, numerics), &path);
             let (placed, taken) = self.placed(i, (file, numerics), &mut materials, &path);
             changes.extend(taken);
+            let inflows = self.inflows(phase, (file, numerics), &path.key("inflow"));
             let rest = self.phase(phase, file, numerics, &path);
-            checked.push(Phase { absent, removed, placed, changes, contacts, ..rest });
+            checked.push(Phase { absent, removed, placed, inflows, changes, contacts, ..rest });
         }
         checked
     }
@@ -89,6 +90,7 @@ impl Checker {
             absent: Vec::new(),
             removed: Vec::new(),
             placed: Vec::new(),
+            inflows: Vec::new(),
             changes: Vec::new(),
             contacts: Vec::new(),
             reset_displacements: phase.reset_displacements,

@@ -33,10 +33,12 @@ fn before<'a>(all: impl Iterator<Item = &'a str>, stages: &[[Vec<&'a str>; 2]], 
 impl Case {
     /// The regions of material points that are there before phase `number`, without what it removes and places.
     pub fn soil_before(&self, number: usize) -> BTreeSet<&str> {
-        let of = |names: &'_ [String]| -> Vec<&str> {
+        let of = |names: &mut dyn Iterator<Item = &String>| -> Vec<&str> {
+            let names: Vec<&String> = names.collect();
             self.regions.iter().map(|r| r.name.as_str()).filter(|name| names.iter().any(|n| n == name)).collect()
         };
-        let stages: Vec<_> = self.phases.iter().map(|phase| [of(&phase.removed), of(&phase.placed)]).collect();
+        let stages: Vec<_> =
+            self.phases.iter().map(|phase| [of(&mut phase.removed.iter()), of(&mut phase.coming())]).collect();
         let all = self.regions.iter().filter(|region| matches!(region.content, Content::Mpm { .. }));
         before(all.map(|region| region.name.as_str()), &stages, number)
     }
@@ -45,9 +47,14 @@ impl Case {
     pub fn comes_later(&self, region: &str) -> bool {
         let is_soil = matches!(self.content(region), Some(Content::Mpm { .. }));
         is_soil
-            && self.phases.iter().any(|phase| phase.placed.iter().any(|n| n == region))
+            && self.phases.iter().any(|phase| phase.coming().any(|n| n == region))
             && !self.soil_before(0).contains(region)
     }
+}
+
+/// Regions that soil comes into.
+fn coming(phase: &raw::Phase) -> impl Iterator<Item = &String> {
+    phase.place.names().chain(phase.inflow.values().map(|inflow| &inflow.region))
 }
 
 /// The soil that is there before phase `number` of the case file.
@@ -55,7 +62,7 @@ pub(super) fn soil_before(file: &raw::CaseFile, number: usize) -> BTreeSet<&str>
     let all = file.regions.iter().filter(|(_, region)| region.kind == RegionKind::Mpm).map(|(name, _)| name.as_str());
     let of = |phase: &'_ raw::Phase| -> [Vec<&str>; 2] {
         let known = |name: &str| file.regions.get_key_value(name).map(|(name, _)| name.as_str());
-        [phase.remove.iter().filter_map(|n| known(n)).collect(), phase.place.names().filter_map(|n| known(n)).collect()]
+        [phase.remove.iter().filter_map(|n| known(n)).collect(), coming(phase).filter_map(|n| known(n)).collect()]
     };
     let stages: Vec<_> = file.phases.iter().map(of).collect();
     before(all, &stages, number)
@@ -139,7 +146,7 @@ impl Checker {
     }
 
     /// Refuses a state at the beginning of regions that are empty then.
-    fn is_empty_at_first(&mut self, file: &raw::CaseFile, placed: &[String]) {
+    pub(super) fn is_empty_at_first(&mut self, file: &raw::CaseFile, placed: &[String]) {
         let at_first = soil_before(file, 0);
         if at_first.is_empty() {
             let remedy = "leave a region of kind mpm out of every `place`: the ground on which the rest comes";

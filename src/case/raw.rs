@@ -229,6 +229,9 @@ pub struct Components {
     /// the soil beside it, in place of supports.
     #[serde(default)]
     pub absorbing: bool,
+    /// Whether soil leaves the model there, in dynamic phases that neither prescribe the curve nor have it as a wall.
+    #[serde(default)]
+    pub outflow: bool,
     /// Springs under the curve, free of force as the run begins: what they resist a displacement, per area of the undeformed curve, in all phases (kN/m³).
     pub springs: Option<Yielding>,
     /// Dashpots under the curve: what they resist a velocity, per area of the undeformed curve, in steps with inertia. Where there are no springs beside

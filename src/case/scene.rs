@@ -7,8 +7,8 @@ use super::raw;
 use super::rigid::{self, Holds};
 use super::start::Start;
 use super::{
-    bars, changes, contact_interfaces, controls, curve_loads, drained_surface, layout, outputs, parts, placed, pores,
-    removed, scheme, search, seeded, springs, staged, stops, ties, unconnected, unmeant, wall, water,
+    bars, changes, contact_interfaces, controls, curve_loads, drained_surface, inflow, layout, outflow, outputs, parts,
+    placed, pores, removed, scheme, search, seeded, springs, staged, stops, ties, unconnected, unmeant, wall, water,
 };
 use crate::error::{Error, Result};
 use crate::gravity::Gravity;
@@ -303,6 +303,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let sprung = springs::followed(case, fem.as_ref().map(|fem| &fem.mesh), &springs);
     let traced =
         traced.into_iter().chain(loaded.iter().copied()).chain(sprung).collect::<BTreeSet<u32>>().into_iter().collect();
+    let outflows = outflow::outflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
+    let inflows = inflow::inflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -324,6 +326,8 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
         phases,
         removals,
         placements,
+        outflows,
+        inflows,
         traced,
         loaded: loaded.into_iter().collect(),
         basis,
@@ -436,7 +440,11 @@ fn phase(
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset_displacements: phase.reset_displacements,
-        stops: stops::of(phase.duration, every, values.flat_map(TimeValue::kinks)),
+        stops: stops::of(
+            phase.duration,
+            every,
+            values.chain(phase.inflows.iter().map(|inflow| &inflow.velocity)).flat_map(TimeValue::kinks),
+        ),
     })
 }
 

@@ -70,11 +70,11 @@ impl Checker {
             let path = Path::default().key("phases").index(k).key("tractions");
             self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`");
         }
-        let places = |phase: &Phase| order == Order::Third && !phase.placed.is_empty();
+        let places = |phase: &Phase| order == Order::Third && phase.coming().next().is_some();
         for (k, _) in case.own_phases().filter(|(_, phase)| places(phase)) {
             let problem =
                 "new soil needs the surface of the soil that is there, which is not followed on cells of third order";
-            let path = Path::default().key("phases").index(k).key("place");
+            let path = Path::default().key("phases").index(k);
             self.issue(&path, At::Key, problem, "set `order: 2` under `mesh`");
         }
     }

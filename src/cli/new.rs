@@ -77,9 +77,9 @@ fn is_parameter(argument: &str) -> bool {
 
 /// Whether an argument `PATH=VALUE` sets what each run of a state has for itself.
 fn is_of_the_run(argument: &str) -> bool {
-    ["title", "phases", "output"].iter().any(|key| {
-        argument.strip_prefix(key).is_some_and(|rest| rest.starts_with(['.', '=', '[']))
-    })
+    ["title", "phases", "output"]
+        .iter()
+        .any(|key| argument.strip_prefix(key).is_some_and(|rest| rest.starts_with(['.', '=', '['])))
 }
 
 /// The text of the `.geo` of a template with the values of `parameters`, a block by their names.

@@ -35,6 +35,7 @@ pub fn on_grid<T>(mesh: &Mesh<2>, points: &Points<2>, find: impl FnOnce(&Restore
         outlines: &[],
         contact: &[],
         relaxed: false,
+        entering: (&[], 0),
         displacement: None,
     })
 }

@@ -6,10 +6,12 @@
 #[cfg(test)]
 pub mod fixture;
 mod resampled;
+mod strip;
 mod surface;
 mod volumes;
 
 pub use resampled::{Around, Count, Fit, Held, Place, Renewed, Resampled, Rings, Samples};
+pub use strip::Strip;
 pub use surface::Bounded;
 pub use volumes::Volumes;
 
@@ -63,6 +65,8 @@ pub struct Restored<'a, const D: usize> {
     pub contact: &'a [Vec<ContactStatus>],
     /// Whether the nodes are not where the first shape of the grid has them.
     pub relaxed: bool,
+    /// Soil that enters the model in this restoration: the strips that it fills, and how many of the last points are its.
+    pub entering: (&'a [Strip<D>], usize),
     /// Displacement (m) of the nodes since the restoration before; `None` in the first one.
     pub displacement: Option<&'a [[f64; D]]>,
 }

@@ -23,6 +23,9 @@ pub fn follow<K: Kinematics<2>>(
             front.advance(grid.before, (mesh, grid.locator), geometry, displacement)?;
             front.conform(mesh, geometry, grid.locator, (grid.outlines, grid.contact))?;
             front.join(mesh, geometry, grid.locator, grid.outlines)?;
+            if !grid.entering.0.is_empty() {
+                *front = with_strips(geometry, grid, front);
+            }
         }
         (Some(_), None) => return Ok(()),
         (None, _) => {
@@ -33,6 +36,17 @@ pub fn follow<K: Kinematics<2>>(
         }
     }
     Ok(())
+}
+
+/// The front of the soil that is there with the strips that are filled.
+fn with_strips(geometry: &Geometry, grid: &Restored<2>, front: &MarkerFront) -> MarkerFront {
+    let Restored { mesh, locator, points, active, entering: (strips, new), .. } = *grid;
+    let mut distance = Distance::default();
+    distance.update(mesh, geometry, locator, front, &points.cell[..points.len() - new], active);
+    let with = |(soil, x): (&f64, &[f64; 2])| strips.iter().fold(*soil, |level, strip| level.max(strip.level(x)));
+    let level: Vec<f64> = distance.level_set.iter().zip(&mesh.nodes).map(with).collect();
+    let nothing = |host: u32, _: &[f64; 2]| Behind { region: NO_REGION, host };
+    ActiveBoundary::of(mesh, geometry, &level, active, nothing).front(mesh)
 }
 
 /// Says whether a front that begins encloses the volume of the points, but for what the offset makes up for.

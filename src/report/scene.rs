@@ -77,6 +77,9 @@ fn acting(case: &Case) -> Vec<(String, String)> {
         if let Some(other) = &support.tied {
             add(&support.curve, format!("tied to {other}"));
         }
+        if support.outflow {
+            add(&support.curve, "outflow".to_owned());
+        }
         if support.drained {
             add(&support.curve, "drained".to_owned());
         }
@@ -91,6 +94,9 @@ fn acting(case: &Case) -> Vec<(String, String)> {
     for phase in &case.phases {
         for prescribed in &phase.prescribed {
             add(&prescribed.curve, "moved".to_owned());
+        }
+        for inflow in &phase.inflows {
+            add(&inflow.curve, "inflow".to_owned());
         }
         for traction in &phase.tractions {
             add(&traction.curve, "loaded".to_owned());

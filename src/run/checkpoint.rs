@@ -146,6 +146,8 @@ fn pass<const D: usize>(archive: &mut Archive, state: &State<D>) -> Result<State
         peak,
         in_play,
         energies: archive.option("state.energies", s.energies.map(|energies| energies.0))?.map(Energies),
+        left: archive.list("state.left", &s.left)?,
+        entered: archive.list("state.entered", &s.entered)?,
         reaction: archive.list("state.reaction", &s.reaction)?,
         start_position: archive.list("state.start_position", &s.start_position)?,
         ramp: UnbalancedRamp { force: archive.list("state.ramp", &s.ramp.force)?, from, until },

@@ -37,6 +37,9 @@ pub fn value<const D: usize, K: Kinematics<D>>(
         }
         (WatchedOn::Region(region), _) => return over(members(state, *region), quantity, scene),
         (WatchedOn::Soil(place), _) => return soil.at(place, quantity),
+        (WatchedOn::Outflow(_, number), Quantity::Out(k)) => state.left.get(*number).map_or(0.0, |left| left[k]),
+        (WatchedOn::Inflow(_, number), Quantity::In(k)) => state.entered.get(*number).map_or(0.0, |entered| entered[k]),
+        (WatchedOn::Outflow(on, _) | WatchedOn::Inflow(on, _), _) => return value(on, quantity, soil, report),
         (WatchedOn::Touched(_, side), Quantity::Contact(d)) => sides::contact(scene, state, side)[d],
         (WatchedOn::Touched(on, _), _) => return value(on, quantity, soil, report),
         (WatchedOn::Bar(number), Quantity::BarForce) => state.force_of_bar(scene, *number),

@@ -31,6 +31,9 @@ pub enum Quantity {
     /// Mass (t) and present volume (m³) of the points, the sums.
     Mass,
     Volume,
+    /// Mass (t) and volume (m³) that have entered and left through a curve since the run began.
+    In(usize),
+    Out(usize),
     /// The least and the largest coordinate (m) of a point.
     Least(usize),
     Most(usize),
@@ -54,10 +57,10 @@ impl Quantity {
         matches!(self, Self::Mass | Self::Volume | Self::Least(_) | Self::Most(_))
     }
 
-    /// Whether it is one of bodies: a force, a moment or a rotation.
+    /// Whether it is one of bodies or curves: a force, a moment, a rotation, or what has passed.
     pub fn is_of_bodies(self) -> bool {
         let moment = matches!(self, Self::Rotation | Self::ReactionMoment | Self::ContactMoment);
-        moment || matches!(self, Self::Reaction(_) | Self::Contact(_))
+        moment || matches!(self, Self::Reaction(_) | Self::Contact(_) | Self::In(_) | Self::Out(_))
     }
 }
 
@@ -89,6 +92,9 @@ pub enum WatchedOn {
     Soil(Place),
     /// A curve of a structure with contact, and what it is in all else.
     Touched(Box<WatchedOn>, Side),
+    /// A curve through which soil leaves or enters, by its number among those in the scene, and what it is in all else.
+    Outflow(Box<WatchedOn>, usize),
+    Inflow(Box<WatchedOn>, usize),
     /// A bar, by its number in the scene.
     Bar(usize),
     /// A plate, by the number of its region, and whether the plane is turned about its axis.
@@ -123,6 +129,8 @@ pub fn column_name(watch: &Watch, quantity: Quantity) -> String {
         Quantity::PlasticStrain => format!("{}.plastic_strain [-]", watch.name),
         Quantity::Mass => format!("{}.mass [t]", watch.name),
         Quantity::Volume => format!("{}.volume [m3]", watch.name),
+        Quantity::In(k) => format!("{}.{}", watch.name, ["mass_in [t]", "volume_in [m3]"][k]),
+        Quantity::Out(k) => format!("{}.{}", watch.name, ["mass_out [t]", "volume_out [m3]"][k]),
         Quantity::Least(d) => format!("{}.{}_min [m]", watch.name, AXES[d]),
         Quantity::Most(d) => format!("{}.{}_max [m]", watch.name, AXES[d]),
         Quantity::Thickness => format!("{}.thickness [m]", watch.name),

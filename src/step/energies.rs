@@ -9,6 +9,8 @@ pub enum Item {
     Loads,
     Water,
     Supports,
+    Outflow,
+    Inflow,
     Kinetic,
     Stored,
     Plastic,
@@ -47,13 +49,15 @@ impl Side {
 }
 
 /// The entries with their names, in the order of [`Item`].
-pub const ITEMS: [(Item, &str, Side); 18] = [
+pub const ITEMS: [(Item, &str, Side); 20] = [
     (Item::Initial, "initial", Side::Supplied),
     (Item::Changes, "changes", Side::Supplied),
     (Item::Gravity, "gravity", Side::Supplied),
     (Item::Loads, "loads", Side::Supplied),
     (Item::Water, "water", Side::Supplied),
     (Item::Supports, "supports", Side::Supplied),
+    (Item::Outflow, "outflow", Side::Supplied),
+    (Item::Inflow, "inflow", Side::Supplied),
     (Item::Kinetic, "kinetic", Side::Held),
     (Item::Stored, "stored", Side::Held),
     (Item::Plastic, "plastic", Side::Dissipated),

@@ -7,6 +7,7 @@ use super::family::{Family, Interpolations, System};
 use super::fem::Elements;
 use super::ghost_faces;
 use super::nodal_fit::Filled;
+use super::outflow;
 use super::pore_pressure;
 use super::pressure;
 use super::relax::{self, Relaxed};
@@ -105,6 +106,11 @@ impl<const D: usize> Grid<D> {
         }
         self.project_pore_pressure::<K>(scene, state);
         Ok(())
+    }
+
+    /// Whether material points have passed a curve through which they leave.
+    pub fn has_outflow(&self, scene: &Scene<D>, state: &State<D>) -> bool {
+        !outflow::passed(scene, state, relax::mesh(scene, self.relaxed.as_ref())).is_empty()
     }
 
     /// The grid for its interpolations.

@@ -24,6 +24,7 @@ mod free;
 mod ghost_faces;
 mod grid;
 mod impulse;
+mod inflow;
 mod leaving;
 mod mass;
 mod materials;
@@ -31,6 +32,7 @@ mod momentum;
 mod newton;
 mod nodal_fit;
 mod obstacles;
+mod outflow;
 pub mod overlap;
 mod placement;
 mod pore_pressure;
@@ -61,6 +63,8 @@ pub use control::Controller;
 pub use energies::{Energies, ITEMS, Item, Side};
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
+pub use inflow::Inflow;
+pub use outflow::Outflow;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
@@ -261,6 +265,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         let held = !state.search_geometry.is_empty();
         let restore = match scene.numerics.restore {
             _ if held => false,
+            _ if inflow::is_due(scene, state) || self.grid.has_outflow(scene, state) => true,
             Restore::EveryStep => true,
             Restore::Never => false,
             Restore::Quality { least, stretch } => {
@@ -399,6 +404,7 @@ impl<'a, const D: usize, K: Kinematics<D>> Simulation<'a, D, K> {
         }
         timed(Activity::Contact, || contact::project_out(scene, state, &mut contacts));
         state.commit_bars(scene);
+        inflow::count(scene, state, dt);
         state.step += 1;
         state.time += dt;
         state.phase_time += dt;

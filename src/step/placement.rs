@@ -63,7 +63,7 @@ pub fn place<const D: usize, K: Kinematics<D>>(
 }
 
 /// Points at rest and without stress, with the columns of those that are there.
-fn points<const D: usize>(state: &State<D>, soil: &Soil, placed: &Placed<D>) -> Points<D> {
+pub fn points<const D: usize>(state: &State<D>, soil: &Soil, placed: &Placed<D>) -> Points<D> {
     let count = placed.position.len();
     let there = &state.points;
     let Soil { region, number, material } = soil;

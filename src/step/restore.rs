@@ -6,7 +6,9 @@ use super::facing;
 use super::family::Interpolations;
 use super::fem;
 use super::ghost_faces;
+use super::inflow;
 use super::nodal_fit::Filled;
+use super::outflow;
 use super::predictor;
 use super::pressure;
 use super::relax::{self, Relaxed};
@@ -35,6 +37,8 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
     interpolations: &mut Interpolations<D>,
     relaxed: &mut Option<Relaxed<D>>,
 ) -> Result<bool> {
+    let out = outflow::release(scene, state, relax::mesh(scene, relaxed.as_ref()))?;
+    let (strips, new) = inflow::enter::<D, K>(scene, state, relax::mesh(scene, relaxed.as_ref()))?;
     let (nodes, position) = (state.nodes.clone(), state.points.position.clone());
     let (cell, parametric) = (state.points.cell.clone(), state.parametric.clone());
     let before = relaxed.take();
@@ -65,10 +69,11 @@ pub fn begin_anew<const D: usize, K: Kinematics<D>>(
         parametric: &state.parametric,
         interpolation: &interpolations.integration,
         active: &state.active,
+        entering: (&strips, new),
         displacement: (state.restorations > 0).then_some(&state.displacement),
     };
     state.weights = scene.quadrature.weigh(&grid, &mut state.front);
-    state.weights.notes = projected.0.into_iter().chain(domains).collect();
+    state.weights.notes = out.into_iter().chain(projected.0).chain(domains).collect();
     state.weights.beyond = projected.1;
     renew::<D, K>(&mut interpolations.integration, scene, (mesh, locator), state);
     predictor::carry(here, mesh, state);

@@ -1,6 +1,8 @@
 //! A scene: everything that does not change while it is solved.
 
 use super::change::{Change, Material};
+use super::inflow::Inflow;
+use super::outflow::Outflow;
 use crate::contact::Interface;
 use crate::dofs::{Places, RigidDofs};
 use crate::interpolation::Basis;
@@ -54,6 +56,10 @@ pub struct Scene<const D: usize> {
     pub removals: Vec<Option<Removal<D>>>,
     /// The soil that each phase places as it begins, after that.
     pub placements: Vec<Option<Placement<D>>>,
+    /// Curves through which soil leaves the model.
+    pub outflows: Vec<Outflow>,
+    /// Curves through which soil enters the model.
+    pub inflows: Vec<Inflow<D>>,
     /// Time (s) at which the run begins: 0, or less where its first phase comes before those of the user.
     pub begins: f64,
     /// Nodes of the grid for which [`super::State::travel`] is the displacement of the material that is there as the run begins, ascending.

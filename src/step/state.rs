@@ -1,6 +1,7 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
 use super::energies::Energies;
+use super::inflow;
 use super::ramp::UnbalancedRamp;
 use super::scene::Scene;
 use crate::contact::Multipliers;
@@ -64,6 +65,10 @@ pub struct State<const D: usize> {
     pub in_play: f64,
     /// The balance of energy; absent before the run begins.
     pub energies: Option<Energies>,
+    /// Mass (t) and volume (m³) that have left through each curve of [`Scene::outflows`]; empty before the first points do.
+    pub left: Vec<[f64; 2]>,
+    /// Mass (t) and volume (m³) that have entered through each curve of [`Scene::inflows`], and how thick (m) what has come since is; empty before.
+    pub entered: Vec<[f64; 3]>,
     /// Force of the supports (kN) in the last step, as [`super::Report::reaction`]; empty before the first one.
     pub reaction: Vec<[f64; D]>,
     /// Where (m) the material points were as the phase, or the part of it without inertia, began; empty where nothing asks how far they
@@ -164,6 +169,7 @@ impl<const D: usize> State<D> {
         if !(moved && self.ramp.is_kept() && scene.phases.get(self.phase).is_some_and(|next| next.dynamic)) {
             self.ramp = UnbalancedRamp::default();
         }
+        inflow::forget(scene, self);
         self.start_position.clear();
         self.search_geometry.clear();
         self.search_curve.clear();

@@ -18,6 +18,7 @@ mod equilibrium;
 mod everyday;
 mod excavation;
 mod fill;
+mod flow;
 mod footings;
 mod ghost;
 mod gravity;
@@ -53,6 +54,7 @@ mod slow {
     mod cone_in_sand;
     mod cpt_sand;
     mod fast_flow;
+    mod filled_silo;
     mod footing_on_sand;
     mod general_position;
     mod nearly_incompressible_sand;

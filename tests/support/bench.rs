@@ -230,6 +230,8 @@ impl Bench {
             supports: self.supports,
             traced: Vec::new(),
             removals: Vec::new(),
+            inflows: Vec::new(),
+            outflows: Vec::new(),
             placements: Vec::new(),
             absorbing: Vec::new(),
             springs: Vec::new().into(),

@@ -186,6 +186,8 @@ impl<K: Kinematics<2>> Stand<K> {
             begins: 0.0,
             phases: vec![phase.clone(), phase],
             removals: Vec::new(),
+            inflows: Vec::new(),
+            outflows: Vec::new(),
             placements: Vec::new(),
             absorbing: Vec::new(),
             springs: Vec::new().into(),

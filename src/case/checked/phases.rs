@@ -27,6 +27,8 @@ pub struct Phase {
     pub removed: Vec<String>,
     /// Regions of soil that are filled as it begins, after that.
     pub placed: Vec<String>,
+    /// Soil that enters the model.
+    pub inflows: Vec<Inflow>,
     /// The materials that regions take as it begins.
     pub changes: Vec<Change>,
     /// The laws that contacts take as it begins.
@@ -34,6 +36,21 @@ pub struct Phase {
     /// Whether displacements are counted from its beginning.
     pub reset_displacements: bool,
     pub until: Vec<Until>,
+}
+
+/// Soil of a region that enters through a curve with a velocity (m/s).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inflow {
+    pub curve: String,
+    pub region: String,
+    pub velocity: TimeValue,
+}
+
+impl Phase {
+    /// Regions that soil comes into.
+    pub fn coming(&self) -> impl Iterator<Item = &String> {
+        self.placed.iter().chain(self.inflows.iter().map(|inflow| &inflow.region))
+    }
 }
 
 /// A material that a region takes: indices into [`super::Case::regions`] and [`super::Case::materials`].

@@ -94,7 +94,7 @@ pub struct History {
 }
 
 /// A quantity of history.csv: means over the nodes of a curve, the points of a region or of a box, or a line; of a rigid structure those of its
-/// centroid; reactions, mass and volume are sums, contact is the force of all contacts on a structure; moments are about the centroid;
+/// centroid; reactions, mass and volume are sums, mass_in, mass_out, volume_in and volume_out what has entered and left through a curve since the run began, contact is the force of all contacts on a structure; moments are about the centroid;
 /// normal and shear force and bending moment are those in the section of a plate where they are largest in amount.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "snake_case")]
@@ -124,6 +124,10 @@ pub enum Quantity {
     PlasticStrain,
     Mass,
     Volume,
+    MassIn,
+    MassOut,
+    VolumeIn,
+    VolumeOut,
     XMin,
     XMax,
     YMin,
@@ -163,6 +167,10 @@ impl From<Quantity> for run::Quantity {
             Quantity::PlasticStrain => Self::PlasticStrain,
             Quantity::Mass => Self::Mass,
             Quantity::Volume => Self::Volume,
+            Quantity::MassIn => Self::In(0),
+            Quantity::MassOut => Self::Out(0),
+            Quantity::VolumeIn => Self::In(1),
+            Quantity::VolumeOut => Self::Out(1),
             Quantity::XMin => Self::Least(0),
             Quantity::XMax => Self::Most(0),
             Quantity::YMin => Self::Least(1),

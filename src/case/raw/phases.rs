@@ -46,6 +46,9 @@ pub struct Phase {
     /// before, they are empty until then. In phases without inertia their weight comes evenly until the end of the phase.
     #[serde(default)]
     pub place: Placed,
+    /// Soil that enters the model in a dynamic phase, by the name of the physical curve on the boundary of the mesh that it comes through.
+    #[serde(default)]
+    pub inflow: BTreeMap<String, Inflow>,
     /// The materials that regions take as the phase begins, by the names of the regions. Stress is kept.
     #[serde(default)]
     pub materials: BTreeMap<String, String>,
@@ -60,6 +63,16 @@ pub struct Phase {
     pub until: Vec<Until>,
     /// Factor that the strengths of soil and contacts are divided by, above 0 (-). Default: 1; in a strength_reduction phase 1 plus the time.
     pub strength_reduction: Option<InTime>,
+}
+
+/// Soil that enters the model, without stress.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Inflow {
+    /// The region of kind mpm at the curve, whose soil enters: it has its material. Without a `remove` before, it is empty until then.
+    pub region: String,
+    /// Velocity across the curve into the mesh, with which the soil enters (m/s).
+    pub velocity: InTime,
 }
 
 /// Regions that are filled: with the material that they have, or each with one by name.

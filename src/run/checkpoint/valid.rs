@@ -63,6 +63,9 @@ fn check_times<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
         state.in_play >= 0.0 && state.energies.is_none_or(|energies| energies.0.iter().all(|e| e.is_finite())),
         "its energies",
     )?;
+    let counted = state.left.iter().flatten().chain(state.entered.iter().flatten()).all(|flow| *flow >= 0.0);
+    ensure(counted && [0, scene.outflows.len()].contains(&state.left.len()), "what has left")?;
+    ensure([0, scene.inflows.len()].contains(&state.entered.len()), "what has entered")?;
     let Some(next) = scene.phases.get(phase) else {
         return ensure(phase_time == 0.0 && !state.moving && !state.switched_to_dynamics, "its end");
     };

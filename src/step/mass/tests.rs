@@ -32,6 +32,8 @@ fn scene<K: Kinematics<2>>(kind: CellKind) -> Scene<2> {
         traced: Vec::new(),
         removals: Vec::new(),
         placements: Vec::new(),
+        outflows: Vec::new(),
+        inflows: Vec::new(),
         absorbing: Vec::new(),
         springs: Vec::new().into(),
         ties: Vec::new(),
