@@ -231,6 +231,8 @@ impl Bench {
             traced: Vec::new(),
             removals: Vec::new(),
             placements: Vec::new(),
+            outflows: Vec::new(),
+            inflows: Vec::new(),
             absorbing: Vec::new(),
             loaded: Vec::new(),
             begins: 0.0,

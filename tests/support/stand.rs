@@ -187,6 +187,8 @@ impl<K: Kinematics<2>> Stand<K> {
             phases: vec![phase.clone(), phase],
             removals: Vec::new(),
             placements: Vec::new(),
+            outflows: Vec::new(),
+            inflows: Vec::new(),
             absorbing: Vec::new(),
             basis: scheme,
             numerics: Numerics {
