@@ -233,6 +233,8 @@ impl Bench {
             inflows: Vec::new(),
             outflows: Vec::new(),
             placements: Vec::new(),
+            outflows: Vec::new(),
+            inflows: Vec::new(),
             absorbing: Vec::new(),
             springs: Vec::new().into(),
             ties: Vec::new(),

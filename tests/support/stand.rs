@@ -189,6 +189,8 @@ impl<K: Kinematics<2>> Stand<K> {
             inflows: Vec::new(),
             outflows: Vec::new(),
             placements: Vec::new(),
+            outflows: Vec::new(),
+            inflows: Vec::new(),
             absorbing: Vec::new(),
             springs: Vec::new().into(),
             ties: Vec::new(),

@@ -130,7 +130,8 @@ fn check_cells<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Result<()>
 
 fn check_points<const D: usize>(scene: &Scene<D>, first: &State<D>, state: &State<D>) -> Result<()> {
     check_family(scene, state, &scene.mesh, &first.points, &state.points)?;
-    if state.weights.samples.is_some() || scene.touched(state.phase, state.phase_time).contains(&true) {
+    let flows = !state.left.is_empty() || !state.entered.is_empty();
+    if flows || state.weights.samples.is_some() || scene.touched(state.phase, state.phase_time).contains(&true) {
         check_sums(scene, state, &first.points, &state.points)?;
     } else {
         check_kept(scene, state, &first.points, &state.points)?;
@@ -179,6 +180,17 @@ fn check_sums<const D: usize>(scene: &Scene<D>, state: &State<D>, first: &Points
     };
     let touched = scene.touched(state.phase, state.phase_time);
     let close = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING * b;
+    if !state.left.is_empty() || !state.entered.is_empty() {
+        // Soil of any region may have left or entered: all of it together is kept.
+        let mass = |points: &Points<D>| points.mass.iter().sum::<f64>();
+        let left: f64 = state.left.iter().map(|[mass, _]| mass).sum();
+        let entered: f64 = state.entered.iter().map(|[mass, ..]| mass).sum();
+        let fits = close((&(mass(points) + left), &(mass(first) + entered)));
+        return ensure(
+            fits || !changes.is_empty() || touched.contains(&true),
+            "the mass of the points with what has passed",
+        );
+    }
     let all = sums(points).into_iter().zip(sums(first)).zip(touched);
     let mut kept = all.filter(|(_, touched)| !touched).map(|(sums, _)| sums);
     ensure(kept.all(|(now, then)| now.iter().zip(&then).all(close)), "the volume or the mass of a region")
