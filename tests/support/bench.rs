@@ -230,8 +230,6 @@ impl Bench {
             supports: self.supports,
             traced: Vec::new(),
             removals: Vec::new(),
-            inflows: Vec::new(),
-            outflows: Vec::new(),
             placements: Vec::new(),
             outflows: Vec::new(),
             inflows: Vec::new(),

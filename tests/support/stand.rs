@@ -186,8 +186,6 @@ impl<K: Kinematics<2>> Stand<K> {
             begins: 0.0,
             phases: vec![phase.clone(), phase],
             removals: Vec::new(),
-            inflows: Vec::new(),
-            outflows: Vec::new(),
             placements: Vec::new(),
             outflows: Vec::new(),
             inflows: Vec::new(),
