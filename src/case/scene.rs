@@ -294,11 +294,12 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let removals = (0..case.phases.len()).map(|number| removed::of_phase::<K>(case, &mesh, number)).collect();
     let placements = (0..case.phases.len()).map(|number| placed::of_phase::<K>(case, &mesh, number));
     let placements = placements.collect::<Result<_>>()?;
-    let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
-    let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
+    let elements = fem.as_ref().map(|fem| &fem.mesh);
+    let loaded = curve_loads::loaded_nodes(case, &mesh, elements);
+    let traced = outputs::traced(case, &mesh, elements);
     let traced = traced.into_iter().chain(loaded.iter().copied()).collect::<BTreeSet<u32>>().into_iter().collect();
-    let outflows = outflow::outflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
-    let inflows = inflow::inflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
+    let outflows = outflow::outflows(case, (&mesh, &locator), elements)?;
+    let inflows = inflow::inflows(case, (&mesh, &locator), elements)?;
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -419,6 +420,7 @@ fn phase(
         .collect();
     let by_formula = phase.tractions.iter().flat_map(|t| t.fields.iter().flatten()).any(LoadField::is_formula_in_time);
     let values = phase.prescribed.iter().map(|p| &p.displacement).chain(loads.iter().copied());
+    let inflows = phase.inflows.iter().map(|inflow| &inflow.velocity);
     let every = case.output.every.filter(|_| !(case.equilibrium && number == 0));
     Ok(Phase {
         name: phase.name.clone(),
@@ -436,11 +438,7 @@ fn phase(
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset_displacements: phase.reset_displacements,
-        stops: stops::of(
-            phase.duration,
-            every,
-            values.chain(phase.inflows.iter().map(|inflow| &inflow.velocity)).flat_map(TimeValue::kinks),
-        ),
+        stops: stops::of(phase.duration, every, values.chain(inflows).flat_map(TimeValue::kinks)),
     })
 }
 
