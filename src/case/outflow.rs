@@ -112,7 +112,7 @@ pub(super) fn boundary_sides(
     let of_side = |&(cell, side): &(u32, u8)| {
         let (_, facets) = mesh.cells.kind[cell as usize].facets();
         let nodes = mesh.cells.nodes(cell as usize);
-        sorted([0, 1].map(|i| nodes[facets[side as usize][i] as usize]))
+        sorted([0, 1].map(|i| nodes[facets[side as usize][i]]))
     };
     let boundary: HashMap<[u32; 2], (u32, u8)> =
         locator.faces.boundary.iter().map(|side| (of_side(side), *side)).collect();

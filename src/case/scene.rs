@@ -298,13 +298,14 @@ pub fn scene<K: Kinematics<2>>(case: &Case, mut whole: Mesh<2>) -> Result<Scene<
     let removals = (0..case.phases.len()).map(|number| removed::of_phase::<K>(case, &mesh, number)).collect();
     let placements = (0..case.phases.len()).map(|number| placed::of_phase::<K>(case, &mesh, number));
     let placements = placements.collect::<Result<_>>()?;
-    let loaded = curve_loads::loaded_nodes(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
-    let traced = outputs::traced(case, &mesh, fem.as_ref().map(|fem| &fem.mesh));
-    let sprung = springs::followed(case, fem.as_ref().map(|fem| &fem.mesh), &springs);
+    let elements = fem.as_ref().map(|fem| &fem.mesh);
+    let loaded = curve_loads::loaded_nodes(case, &mesh, elements);
+    let traced = outputs::traced(case, &mesh, elements);
+    let sprung = springs::followed(case, elements, &springs);
     let traced =
         traced.into_iter().chain(loaded.iter().copied()).chain(sprung).collect::<BTreeSet<u32>>().into_iter().collect();
-    let outflows = outflow::outflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
-    let inflows = inflow::inflows(case, (&mesh, &locator), fem.as_ref().map(|fem| &fem.mesh))?;
+    let outflows = outflow::outflows(case, (&mesh, &locator), elements)?;
+    let inflows = inflow::inflows(case, (&mesh, &locator), elements)?;
     let scene = Scene {
         locator,
         quadrature: quadrature::<K>(case, &mesh)?,
@@ -388,22 +389,15 @@ fn quadrature<K: Kinematics<2>>(case: &Case, mesh: &Mesh<2>) -> Result<Box<dyn Q
     Ok(match (case.numerics.quadrature, bounded || touched) {
         (raw::Quadrature::Resampled, _) => {
             let resampled = Resampled::<K>::new(mesh, models(case, mesh)?, bounded);
-            Box::new(resampled.renewing(seeded(case, mesh)?).varying(changes::random_strengths(case, mesh)?))
+            Box::new(
+                resampled
+                    .renewing(seeded::points_per_cell(case, mesh)?)
+                    .varying(changes::random_strengths(case, mesh)?),
+            )
         }
         (raw::Quadrature::Points, true) => Box::new(Bounded::<K>::new(mesh)),
         (raw::Quadrature::Points, false) => Box::new(Volumes::<K>::default()),
     })
-}
-
-/// The points that the cells of each region of the mesh are seeded with.
-fn seeded(case: &Case, mesh: &Mesh<2>) -> Result<Vec<u32>> {
-    let mut seeded = vec![0; mesh.regions.len()];
-    for region in &case.regions {
-        if let Content::Mpm { points_per_cell, .. } = region.content {
-            seeded[usize::from(region_index(mesh, &region.name)?)] = points_per_cell as u32;
-        }
-    }
-    Ok(seeded)
 }
 
 fn phase(
@@ -423,6 +417,7 @@ fn phase(
         .collect();
     let by_formula = phase.tractions.iter().flat_map(|t| t.fields.iter().flatten()).any(LoadField::is_formula_in_time);
     let values = phase.prescribed.iter().map(|p| &p.displacement).chain(loads.iter().copied());
+    let inflows = phase.inflows.iter().map(|inflow| &inflow.velocity);
     let every = case.output.every.filter(|_| !(case.equilibrium && number == 0));
     Ok(Phase {
         name: phase.name.clone(),
@@ -440,11 +435,7 @@ fn phase(
         changes: Vec::new(),
         apart: staged::apart(case, phase),
         reset_displacements: phase.reset_displacements,
-        stops: stops::of(
-            phase.duration,
-            every,
-            values.chain(phase.inflows.iter().map(|inflow| &inflow.velocity)).flat_map(TimeValue::kinks),
-        ),
+        stops: stops::of(phase.duration, every, values.chain(inflows).flat_map(TimeValue::kinks)),
     })
 }
 

@@ -1,7 +1,7 @@
 //! Whether the points of `points.vtu` are ones that `mpm seed` puts into this case and mesh: the analysis takes it for granted.
 
-use super::checked::Case;
-use super::find::filled;
+use super::checked::{Case, Content};
+use super::find::{filled, region_index};
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
@@ -60,4 +60,18 @@ pub fn check_places(mesh: &Mesh<2>, locator: &Locator<2>, points: &Points<2>) ->
 
 fn foreign(problem: String) -> Error {
     Error::input("points.vtu", problem, "run `mpm seed` again")
+}
+
+/// The points that the cells of each region of the mesh are seeded with.
+///
+/// # Errors
+/// Input: a region that the mesh lacks.
+pub fn points_per_cell(case: &Case, mesh: &Mesh<2>) -> Result<Vec<u32>> {
+    let mut seeded = vec![0; mesh.regions.len()];
+    for region in &case.regions {
+        if let Content::Mpm { points_per_cell, .. } = region.content {
+            seeded[usize::from(region_index(mesh, &region.name)?)] = points_per_cell as u32;
+        }
+    }
+    Ok(seeded)
 }

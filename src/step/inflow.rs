@@ -5,41 +5,19 @@
 //! time, to rounding. Inflow presses on nothing: soil that is still in the strip ends the analysis.
 
 use super::energies::Item;
-use super::placement;
-use super::scene::{Scene, Soil};
+use super::new_points;
+use super::scene::{Inflow, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
-use crate::geometry::{Line, at, distance};
-use crate::gravity::Gravity;
+use crate::geometry::{at, distance};
 use crate::kinematics::Kinematics;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
 use crate::quadrature::{Placed, Strip};
-use crate::time_value::TimeValue;
 
-/// A curve through which soil enters the model.
-#[derive(Clone, Debug)]
-pub struct Inflow<const D: usize> {
-    pub name: String,
-    /// The curve, which is straight.
-    pub ends: Line<D>,
-    /// The unit normal into the mesh.
-    pub inward: [f64; D],
-    /// Whether there is room beside each end, and not a wall along the flow.
-    pub open: [bool; 2],
-    /// How far (m) points are apart, and how many of them a row has.
-    pub spacing: f64,
-    pub row: usize,
-    /// The acceleration of gravity in each phase.
-    pub gravity: Vec<Gravity<D>>,
-    /// The soil that enters and its velocity (m/s) across the curve in each phase.
-    pub phases: Vec<Option<(Soil, TimeValue)>>,
-}
-
-impl<const D: usize> Inflow<D> {
-    fn strip(&self, thickness: f64) -> Strip<D> {
-        Strip { ends: self.ends, inward: self.inward, open: self.open, thickness }
-    }
+/// The strip of an inflow with a thickness (m).
+fn strip<const D: usize>(inflow: &Inflow<D>, thickness: f64) -> Strip<D> {
+    Strip { ends: inflow.ends, inward: inflow.inward, open: inflow.open, thickness }
 }
 
 /// Counts the soil that comes in the step of `dt` (s) that begins now.
@@ -52,15 +30,6 @@ pub fn count<const D: usize>(scene: &Scene<D>, state: &mut State<D>, dt: f64) {
         if let Some(Some((_, velocity))) = inflow.phases.get(state.phase) {
             let ends = [state.phase_time, state.phase_time + dt].map(|time| velocity.at(time));
             entered[2] += 0.5 * dt * (ends[0] + ends[1]);
-        }
-    }
-}
-
-/// Forgets what is less than a row of the inflows that end with the phase before the one in hand.
-pub fn forget<const D: usize>(scene: &Scene<D>, state: &mut State<D>) {
-    for (entered, inflow) in state.entered.iter_mut().zip(&scene.inflows) {
-        if !matches!(inflow.phases.get(state.phase), Some(Some(_))) {
-            entered[2] = 0.0;
         }
     }
 }
@@ -85,7 +54,7 @@ pub fn enter<const D: usize, K: Kinematics<D>>(
         let Some(Some((soil, velocity))) = inflow.phases.get(state.phase).filter(|_| due >= inflow.spacing) else {
             continue;
         };
-        let strip = inflow.strip(due);
+        let strip = strip(inflow, due);
         let place = || format!("inflow `{}`", inflow.name);
         if let Some(x) = state.points.position[..before].iter().find(|x| strip.level(x) > 0.0) {
             return Err(Error::analysis(
@@ -118,7 +87,7 @@ pub fn enter<const D: usize, K: Kinematics<D>>(
             }
         }
         let speed = velocity.at(state.phase_time);
-        let mut points = placement::points(state, soil, &placed);
+        let mut points = new_points::points(state, soil, &placed);
         points.velocity.fill(inflow.inward.map(|n| speed * n));
         points.acceleration.fill(inflow.gravity[state.phase].at(state.phase_time));
         let mass: f64 = points.mass.iter().sum();

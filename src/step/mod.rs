@@ -29,6 +29,7 @@ mod leaving;
 mod mass;
 mod materials;
 mod momentum;
+mod new_points;
 mod newton;
 mod nodal_fit;
 mod obstacles;
@@ -63,14 +64,12 @@ pub use control::Controller;
 pub use energies::{Energies, ITEMS, Item, Side};
 pub use ghost_faces::has_room_for_penalties;
 pub use grid::Grid;
-pub use inflow::Inflow;
-pub use outflow::Outflow;
 pub use problem::Solution;
 pub use ramp::UnbalancedRamp;
 pub use report::Report;
 pub use scene::{
-    FARTHEST, Fem, Fixed, Numerics, Phase, Placement, Prescribed, Removal, Restore, Scene, Search, Soil, StepSize,
-    Stop, Water,
+    FARTHEST, Fem, Fixed, Inflow, Numerics, Outflow, Phase, Placement, Prescribed, Removal, Restore, Scene, Search,
+    Soil, StepSize, Stop, Water,
 };
 pub use search::kink;
 pub use state::{Span, State};

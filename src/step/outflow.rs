@@ -5,7 +5,7 @@
 
 use super::boundary_projection::holding;
 use super::energies::Item;
-use super::scene::Scene;
+use super::scene::{Outflow, Scene};
 use super::state::State;
 use crate::error::{Error, Result};
 use crate::mesh::Mesh;
@@ -16,22 +16,10 @@ use rayon::prelude::*;
 /// Nearer (-) than this, over the size of its cell, a side of the boundary is as near as another one.
 const AS_NEAR: f64 = 1e-9;
 
-/// A curve through which soil leaves the model.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Outflow {
-    pub name: String,
-    /// Its sides on the boundary of the mesh, by cell and number of the side.
-    pub sides: Vec<(u32, u8)>,
-    /// Whether it is open in each phase.
-    pub open: Vec<bool>,
-}
-
-impl Outflow {
-    /// Whether soil has passed it that is still in the model: at the beginning of a phase, in the one before.
-    fn was_open<const D: usize>(&self, state: &State<D>) -> bool {
-        let open = |phase: usize| self.open.get(phase) == Some(&true);
-        open(state.phase) || (state.phase_time == 0.0 && state.phase > 0 && open(state.phase - 1))
-    }
+/// Whether soil has passed a curve that is still in the model: at the beginning of a phase, in the one before.
+fn was_open<const D: usize>(outflow: &Outflow, state: &State<D>) -> bool {
+    let open = |phase: usize| outflow.open.get(phase) == Some(&true);
+    open(state.phase) || (state.phase_time == 0.0 && state.phase > 0 && open(state.phase - 1))
 }
 
 /// The material points that have passed a curve, ascending, with its number.
@@ -41,7 +29,7 @@ pub fn passed<const D: usize>(
     grid: (&Mesh<D>, &Locator<D>),
 ) -> Vec<(usize, usize)> {
     let (mesh, locator) = grid;
-    if !scene.outflows.iter().any(|outflow| outflow.was_open(state)) {
+    if !scene.outflows.iter().any(|outflow| was_open(outflow, state)) {
         return Vec::new();
     }
     let points = &state.points;
@@ -52,7 +40,7 @@ pub fn passed<const D: usize>(
     }
     let held = holding(scene, mesh, state);
     let owner = |side: &(u32, u8)| {
-        scene.outflows.iter().position(|outflow| outflow.was_open(state) && outflow.sides.contains(side))
+        scene.outflows.iter().position(|outflow| was_open(outflow, state) && outflow.sides.contains(side))
     };
     let of_side = |side: &(u32, u8)| {
         let line = Side::of(mesh, *side);

@@ -1,10 +1,10 @@
 //! A scene: everything that does not change while it is solved.
 
 use super::change::{Change, Material};
-use super::inflow::Inflow;
-use super::outflow::Outflow;
 use crate::contact::Interface;
 use crate::dofs::{Places, RigidDofs};
+use crate::geometry::Line;
+use crate::gravity::Gravity;
 use crate::interpolation::Basis;
 use crate::mesh::Mesh;
 use crate::mesh::locate::Locator;
@@ -332,6 +332,35 @@ pub struct Soil {
     /// The number of its material among those of the scene ([`crate::points::Points::model_of`]).
     pub number: u16,
     pub material: Material,
+}
+
+/// A curve through which soil leaves the model.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outflow {
+    pub name: String,
+    /// Its sides on the boundary of the mesh, by cell and number of the side.
+    pub sides: Vec<(u32, u8)>,
+    /// Whether it is open in each phase.
+    pub open: Vec<bool>,
+}
+
+/// A curve through which soil enters the model.
+#[derive(Clone, Debug)]
+pub struct Inflow<const D: usize> {
+    pub name: String,
+    /// The curve, which is straight.
+    pub ends: Line<D>,
+    /// The unit normal into the mesh.
+    pub inward: [f64; D],
+    /// Whether there is room beside each end, and not a wall along the flow.
+    pub open: [bool; 2],
+    /// How far (m) points are apart, and how many of them a row has.
+    pub spacing: f64,
+    pub row: usize,
+    /// The acceleration of gravity in each phase.
+    pub gravity: Vec<Gravity<D>>,
+    /// The soil that enters and its velocity (m/s) across the curve in each phase.
+    pub phases: Vec<Option<(Soil, TimeValue)>>,
 }
 
 /// How far soil may move without inertia (-), over its height: farther counts as failure in a strength reduction, and gives a warning

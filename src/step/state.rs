@@ -1,7 +1,6 @@
 //! The state of a run: all that a checkpoint holds. Everything else follows from it and the scene.
 
 use super::energies::Energies;
-use super::inflow;
 use super::ramp::UnbalancedRamp;
 use super::scene::Scene;
 use crate::contact::Multipliers;
@@ -169,7 +168,10 @@ impl<const D: usize> State<D> {
         if !(moved && self.ramp.is_kept() && scene.phases.get(self.phase).is_some_and(|next| next.dynamic)) {
             self.ramp = UnbalancedRamp::default();
         }
-        inflow::forget(scene, self);
+        // Less than a row of the inflows that end does not enter.
+        for (entered, inflow) in self.entered.iter_mut().zip(&scene.inflows) {
+            entered[2] *= f64::from(u8::from(matches!(inflow.phases.get(self.phase), Some(Some(_)))));
+        }
         self.start_position.clear();
         self.search_geometry.clear();
         self.search_curve.clear();

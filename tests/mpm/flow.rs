@@ -90,7 +90,7 @@ fn a_jet_enters_falls_and_leaves() {
             if k > 0 && into[k] > into[k - 1] {
                 assert!((into[k] / (flow * time[k - 1]) - 1.0).abs() < 1e-12, "{set:?}, t = {}", time[k]);
             }
-            assert_eq!(bed[k], bed[0]);
+            assert!((bed[k] / bed[0] - 1.0).abs() < 1e-12);
         }
         let through = if gravity == 0.0 { 0.75 } else { ((4.0 + 3.0 * gravity).sqrt() - 2.0) / gravity };
         let held = feed.last().unwrap() / (flow * through);
