@@ -15,7 +15,7 @@ SECONDS := 600
 MDBOOK_VERSION := 0.5.4
 MDBOOK := target/tools/mdbook-$(MDBOOK_VERSION)/bin/mdbook
 
-.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block constants sbom stress everyday verification book keys
+.PHONY: help setup build wheel wheel-try demo gallery pile pile-variants pile-schemes pipeline pipeline-study test test-quick fuzz sanitize campaign check fmt clean bench bench-block peer-wall constants sbom stress everyday verification book keys
 
 help: ## List the targets
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / {printf "  %-14s %s\n", $$1, $$2}' $(firstword $(MAKEFILE_LIST))
@@ -96,6 +96,9 @@ bench: build ## Error against seconds for every scheme, beside Kratos; writes do
 
 bench-block: build ## Time the block of 102 400 points beside Kratos; writes docs/benchmarks-block.md
 	$(PYTHON) benches/block/run.py --large --write $(ARGS)
+
+peer-wall: build ## Run the anchored wall of the template beside Kratos; prints forces and displacements, stage by stage
+	$(PYTHON) benches/peers/wall.py $(ARGS)
 
 constants: setup ## Run scenes with each numerical constant of the solver halved and doubled, an hour; writes docs/constants.md
 	$(PYTHON) benches/constants/run.py --write $(ARGS)

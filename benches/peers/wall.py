@@ -128,7 +128,7 @@ def kratos(folder, model, case, h, across, along):
     }
     (folder / "settings.json").write_text(json.dumps(settings))
     results = folder / "results.json"
-    command = [kratos_python(), HERE / "kratos_wall.py", folder / "mesh.npz", folder / "settings.json", results]
+    command = [kratos_python(), ROOT / "benches/peers/kratos_wall.py", folder / "mesh.npz", folder / "settings.json", results]
     with open(folder / "kratos.log", "w") as log:
         subprocess.run([str(part) for part in command], check=True, stdout=log, stderr=log, env={**os.environ, "OMP_NUM_THREADS": "1"})
     found = json.loads(results.read_text())

@@ -21,12 +21,20 @@ pub fn found<const D: usize>(scene: &Scene<D>, state: &State<D>) -> Vec<String> 
         }
     }
     let phase = scene.phases.get(state.phase).map_or("", |phase| phase.name.as_str());
+    // The volume of a region over that when seeded (-).
+    let growth = |region: u16| {
+        let own = (0..state.points.len()).filter(|&p| state.points.region[p] == region);
+        let [now, first] = own
+            .fold([0.0; 2], |[now, first], p| [now + state.points.volume(p), first + state.points.initial_volume[p]]);
+        now / first
+    };
     let warning = |(region, ratio, p): (u16, f64, usize)| {
         format!(
-            "{WARNING}phase `{phase}`: soil of region `{}` has grown to {ratio:.2} times its volume near {:.3?} m, which no soil does: \
-             where it dilates give its material a `dilation_cutoff`; where it is torn apart its stress is meaningless",
+            "{WARNING}phase `{phase}`: soil of region `{}` has grown to {ratio:.2} times its volume near {:.3?} m, which no soil does, and to {:.2} times as a \
+             whole: where it dilates give its material a `dilation_cutoff`; where it is torn apart its stress is meaningless, and it lands looser than it was",
             scene.mesh.regions[usize::from(region)],
-            state.points.position[p]
+            state.points.position[p],
+            growth(region)
         )
     };
     most.into_iter().map(warning).collect()

@@ -6,8 +6,8 @@ use std::path::Path;
 /// The height (m) of sand that fills the silo evenly: twice that of its centroid, in the last frame of the phase `rest`.
 fn height(folder: &Path) -> f64 {
     let frames = mpm::io::frame::list(&folder.join("results")).unwrap();
-    let all = frames.iter().map(|found| mpm::io::frame::Frame::read(&found.path).unwrap());
-    let rest = all.filter(|frame| frame.phase == "rest").last().unwrap();
+    let mut all = frames.iter().map(|found| mpm::io::frame::Frame::read(&found.path).unwrap());
+    let rest = all.rfind(|frame| frame.phase == "rest").unwrap();
     let masses = &rest.points.columns.iter().find(|column| column.name == "mass").unwrap().values;
     let moment: f64 = rest.points.position.iter().zip(masses).map(|(x, mass)| x[1] * mass).sum();
     2.0 * moment / masses.iter().sum::<f64>()
