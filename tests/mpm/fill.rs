@@ -1,6 +1,6 @@
 //! Soil that phases place, through the program: layers against the one-dimensional law, on ground that settles, on clay that fails.
 
-use crate::support::{column, errors, in_folder, mpm, project, said, solve};
+use crate::support::{column, errors, in_folder, project, solve};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -170,17 +170,5 @@ fn what_cannot_be_placed_is_told() {
     ] {
         let output = errors(&in_folder(&project(""), &["check", LIFTS, "--set", set[0], "--set", set[1]]));
         assert!(output.contains(says), "{set:?}: {output}");
-    }
-}
-
-/// A lift that is named before the one below it hangs in the air.
-#[test]
-fn a_lift_in_the_air_is_told() {
-    let folder = tempfile::tempdir().unwrap();
-    for (place, told) in [("[lift3]", true), ("[lift1]", false)] {
-        let set =
-            format!("phases=[{{name: a, analysis: dynamic, duration: 0.01, step: {{initial: 0.01}}, place: {place}}}]");
-        let output = mpm("run", LIFTS, &folder.path().join(place), &[&set]);
-        assert_eq!(said(&output).contains("is placed on nothing"), told, "{}", said(&output));
     }
 }
