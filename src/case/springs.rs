@@ -99,10 +99,10 @@ pub fn held(case: &Case, mesh: &Mesh<2>, springs: &[Spring<2>], ties: &[[u32; 2]
         let nodes = &group(mesh, &support.curve)?.nodes;
         for component in (0..2).filter(|&d| !support.fixed[d]) {
             let is_held = |n: &u32| {
-                let [borne, damped] = of(*n).map_or([false; 2], |spring| {
+                let [elastic, damped] = of(*n).map_or([false; 2], |spring| {
                     [&spring.stiffness, &spring.damping].map(|matrix| matrix[component][component] != 0.0)
                 });
-                !borne && (damped || support.absorbing)
+                !elastic && (damped || support.absorbing)
             };
             fixed.push(Fixed { nodes: nodes.iter().copied().filter(is_held).collect(), component });
         }
@@ -130,7 +130,7 @@ pub fn springs<K: Kinematics<2>>(case: &Case, meshes: [&Mesh<2>; 2], ties: &[[u3
             let is_empty = |r: &u16| case.content(&meshes[0].regions[usize::from(*r)]) == Some(Content::Buffer);
             let [stiffness, damping] = resistance(case, meshes, support, facet, &beside)?;
             if beside.iter().all(is_empty) {
-                // The side of the air above soil: soil that comes there is borne.
+                // The side of the air above soil: springs support soil that comes there.
                 if support.springs.is_none() && support.dashpots.is_none() {
                     continue;
                 }

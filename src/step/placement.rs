@@ -44,6 +44,13 @@ pub fn place<const D: usize, K: Kinematics<D>>(
     for (soil, placed) in placement.soils.iter().zip(&all) {
         let points = points(state, soil, placed);
         lines.push(note(scene, state, (soil, placed), &points));
+        if !points.is_empty() && is_on_nothing(scene, state, placed) {
+            lines.push(format!(
+                "warning: phase `{}`: `{}` is placed on nothing, neither soil nor a support is beside it: in `place` name regions in the order in which \
+                 they come",
+                scene.phases[state.phase].name, scene.mesh.regions[usize::from(soil.region)]
+            ));
+        }
         if !state.start_position.is_empty() {
             state.start_position.extend(&points.position);
         }
@@ -92,4 +99,17 @@ fn note<const D: usize>(
         line.push_str(&format!(", but {occupied:.6} m³ of them have soil already"));
     }
     line
+}
+
+/// Whether soil that comes is beside no soil, and beside nothing that is held along gravity. Where structures are, they may bear it.
+fn is_on_nothing<const D: usize>(scene: &Scene<D>, state: &State<D>, placed: &Placed<D>) -> bool {
+    if scene.fem.is_some() || !scene.interfaces.is_empty() || scene.gravity == [0.0; D] {
+        return false;
+    }
+    let down = (0..D).max_by(|&a, &b| scene.gravity[a].abs().total_cmp(&scene.gravity[b].abs())).unwrap_or(0);
+    let mut bears = vec![false; scene.displacements()];
+    let of_soil = state.points.cell.iter().flat_map(|&c| scene.mesh.cells.nodes(c as usize));
+    let held = scene.fixed(state.phase).filter(|fixed| fixed.component == down).flat_map(|fixed| &fixed.nodes);
+    of_soil.chain(held).for_each(|&n| bears[n as usize] = true);
+    placed.cell.iter().all(|&c| scene.mesh.cells.nodes(c as usize).iter().all(|&n| !bears[n as usize]))
 }

@@ -1,6 +1,6 @@
 //! Soil that phases place, through the program: layers against the one-dimensional law, on ground that settles, on clay that fails.
 
-use crate::support::{column, errors, in_folder, project, solve};
+use crate::support::{column, errors, in_folder, mpm, project, said, solve};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -170,5 +170,22 @@ fn what_cannot_be_placed_is_told() {
     ] {
         let output = errors(&in_folder(&project(""), &["check", LIFTS, "--set", set[0], "--set", set[1]]));
         assert!(output.contains(says), "{set:?}: {output}");
+    }
+}
+
+/// A lift that comes before the one below it hangs in the air.
+#[test]
+fn a_lift_in_the_air_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let phase = |name: &str, place: &str| {
+        format!("{{name: {name}, analysis: dynamic, duration: 0.01, step: {{initial: 0.01}}, place: {place}}}")
+    };
+    for (first, second, told) in
+        [("[lift1]", "[lift2, lift3]", 0), ("[lift3]", "[lift1, lift2]", 1), ("[lift2, lift3]", "[lift1]", 1)]
+    {
+        let set = format!("phases=[{}, {}]", phase("a", first), phase("b", second));
+        let output = mpm("run", LIFTS, &folder.path().join(first), &[&set]);
+        let said = said(&output);
+        assert_eq!(said.matches("is placed on nothing").count(), told, "{first}: {said}");
     }
 }
